@@ -148,7 +148,7 @@ TEST(DisplayCells, fixed_echoes_add_up_as_pressures) {
 // A glint of a wall beside the fan is so loud that a hundred thousandth of it would hide what else a beam receives.
 TEST(DisplayCells, glints_are_heard_in_far_side_lobes_as_the_array_receives_them) {
   SonarHead head = cells_head(samples_head(33), 5);
-  head.pulse.bandwidth = 2e3;  // its pattern is that of the centre frequency
+  head.pulse.bandwidth = 500;  // its pattern is that of the centre frequency
   const double wavelength = lossy.sound_speed / centre, glint = -0.953;
   Echoes e;
   e.delay = {2 * 2.5 / lossy.sound_speed}, e.u = {glint}, e.amplitude = {1};

@@ -5,7 +5,6 @@
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/display/cell_echoes_internal.hpp"
-#include "beamforming/display/looks_loops_internal.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 
@@ -45,14 +44,9 @@ class EchoMaker {
   void make(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& slot,
             UninitializedVector<CellEcho>& echoes) const {
     const std::size_t surfaces = surface_.id.size(), drawn = begin < surfaces ? std::min(end, surfaces) - begin : 0;
-    std::array<std::vector<double>, 2> re, im;
-    for (const std::size_t q : {0, 1}) re[q].assign(drawn, 0), im[q].assign(drawn, 0);
-    if (options_.speckle && drawn > 0) {
-      // The first amplitude is that of samples of the same seed (E9).
-      const std::uint64_t* const id = surface_.id.data() + begin;
-      random_amplitudes(options_.seed, {id, drawn}, re[0].data(), im[0].data());
-      kernels::draw_normals(options_.seed, id, drawn, re[1].data(), im[1].data());  // (E187)
-    }
+    std::vector<double> re(drawn, 0), im(drawn, 0);
+    if (options_.speckle && drawn > 0)
+      random_amplitudes(options_.seed, {surface_.id.data() + begin, drawn}, re.data(), im.data());  // (E9)
     for (std::size_t i = begin; i < end; ++i) {
       if (slot[i] >= echoes.size()) continue;
       if (i >= surfaces) {
@@ -60,18 +54,17 @@ class EchoMaker {
         continue;
       }
       const std::size_t k = i - begin;
-      echoes[slot[i]] = of_surface(i, {Complex(re[0][k], im[0][k]), Complex(re[1][k], im[1][k])});
+      echoes[slot[i]] = of_surface(i, {re[k], im[k]});
     }
   }
 
  private:
   using Complex = std::complex<double>;
-  static constexpr std::array<Complex, 2> no_amplitude{};
 
-  CellEcho of_surface(std::size_t i, const std::array<Complex, 2>& amplitude) const {
+  CellEcho of_surface(std::size_t i, const Complex& amplitude) const {
     CellEcho echo;
     const double in_cell = set_place(surface_.echoes, i, echo);
-    set_pressure(surface_.echoes.amplitude[i], in_cell, is_both(i) ? no_amplitude : amplitude, echo);
+    set_pressure(surface_.echoes.amplitude[i], in_cell, is_both(i) ? 0 : amplitude, echo);
     echo.energy = static_cast<float>(in_cell * surface_.power[i]);
     if (echo.energy > 0) {
       echo.half_depth = surface_.depth[i];
@@ -84,7 +77,7 @@ class EchoMaker {
   }
   CellEcho of_target(std::size_t i) const {
     CellEcho echo;
-    set_pressure(fixed_.amplitude[i], set_place(fixed_, i, echo), {1, 0}, echo);
+    set_pressure(fixed_.amplitude[i], set_place(fixed_, i, echo), 1, echo);
     echo.energy = echo.strength;
     echo.together = 0;
     set_extent(fixed_.u[i], echo);
@@ -96,16 +89,13 @@ class EchoMaker {
     echo.range = static_cast<float>(range), echo.u = static_cast<float>(echoes.u[i]);
     return plan_.pulse.energy(range) * per_cell_length_;
   }
-  static void set_pressure(const Complex& of, double in_cell, const std::array<Complex, 2>& amplitude, CellEcho& echo) {
+  static void set_pressure(const Complex& of, double in_cell, const Complex& amplitude, CellEcho& echo) {
     const double square = std::norm(of);
     echo.strength = static_cast<float>(in_cell * square);
     if (!(square > 0)) return;
-    const Complex phase = of * (1 / std::sqrt(square));
-    for (const std::size_t q : {0, 1}) {
-      const Complex& a = amplitude[q];
-      echo.pressure[q] = {static_cast<float>(phase.real() * a.real() - phase.imag() * a.imag()),
-                          static_cast<float>(phase.real() * a.imag() + phase.imag() * a.real())};
-    }
+    const Complex phase = of * (1 / std::sqrt(square)), a = amplitude;
+    echo.pressure = {static_cast<float>(phase.real() * a.real() - phase.imag() * a.imag()),
+                     static_cast<float>(phase.real() * a.imag() + phase.imag() * a.real())};
   }
   void set_extent(double u, CellEcho& echo) const {
     const auto width = static_cast<double>(echo.half_width);

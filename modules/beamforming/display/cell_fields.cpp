@@ -2,6 +2,7 @@
 // Fields of a display cell, of which its speckle is drawn, and their expected powers (E183).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "beamforming/display/cell_row_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
@@ -21,6 +22,8 @@ std::uint64_t noise_seed(const CellOptions& options) {
 void CellRow::sum_fields(std::size_t cell, std::size_t s) {
   Side& side = side_[s];
   for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), Complex(0));
+  const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
+  const double per_length = static_cast<double>(field_parts) / plan_.cell_length;
   for (const Piece& piece : side.even) {
     const CellEcho& echo = *piece.echo;
     if (!(piece.field > 0)) continue;
@@ -28,29 +31,29 @@ void CellRow::sum_fields(std::size_t cell, std::size_t s) {
     while (position >= plan_.period) position -= plan_.period;
     Complex turn = static_cast<double>(piece.sign * std::sqrt(piece.field));
     if (plan_.half_positions) turn = turn.real() * plan_.turn[echo.node];
-    for (std::size_t q = 0; q < 2; ++q) {
-      const double re = echo.pressure[q].real(), im = echo.pressure[q].imag();
-      nodes_[q][position] += Complex(turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re);
-    }
-    reinterpret_cast<double*>(&power_at_[position])[s] += piece.field;
+    const double within = std::max(0.0, (static_cast<double>(echo.range) - first) * per_length);
+    const std::size_t q = std::min(static_cast<std::size_t>(within), field_parts - 1);
+    const double re = echo.pressure.real(), im = echo.pressure.imag();
+    nodes_[q][position] += Complex(turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re);
+    reinterpret_cast<double*>(&power_at_[q][position])[s] += piece.field;
   }
-  for (std::size_t q = 0; q < 2; ++q) {
+  for (std::size_t q = 0; q < field_parts; ++q) {
     plan_.to_elements.run(nodes_[q].data(), elements_.data());
-    add_noise(cell, q, side.noise);
+    add_noise(cell, q, side.noise / static_cast<double>(field_parts));
     form_period(elements_, side.field[q]);
   }
 }
 
 void CellRow::add_noise(std::size_t cell, std::size_t q, double noise) {
-  const double root = std::sqrt(noise / plan_.lag[0]), next = plan_.noise_of_next;
+  const double root = std::sqrt(noise / plan_.lag[0]), next = q + 1 == field_parts ? plan_.noise_of_next : 0;
   if (root == 0) return;
   add_noise_of(cell, q, root * std::sqrt(1 - next * next));
-  if (next > 0) add_noise_of(cell + 1, q, root * next);  // (E224)
+  if (next > 0) add_noise_of(cell + 1, 0, root * next);  // (E224)
 }
 
 void CellRow::add_noise_of(std::size_t cell, std::size_t q, double amplitude) {
   for (std::size_t m = 0; m < noise_id_.size(); ++m)
-    noise_id_[m] = ((row_.first_element + m) * (plan_.cells + 1) + cell) * 2 + q;
+    noise_id_[m] = ((row_.first_element + m) * (plan_.cells + 1) + cell) * field_parts + q;
   kernels::draw_normals(noise_seed(options_), noise_id_.data(), noise_id_.size(), noise_re_.data(), noise_im_.data());
   std::size_t at = plan_.first_element;
   for (std::size_t m = 0; m < noise_id_.size(); ++m) {
@@ -73,18 +76,23 @@ void CellRow::form_period(const std::vector<Complex>& elements, std::vector<Comp
 
 void CellRow::sum_powers(std::size_t sides) {
   // Expected powers of the fields of both cells, as real and imaginary parts.
-  plan_.to_elements.run(power_at_.data(), elements_.data());
   const std::size_t length = plan_.period;
-  for (std::size_t m = 0; m < plan_.lag.size(); ++m) {
-    lags_[m] = plan_.lag_weight[m] * elements_[m];
-    if (m > 0) lags_[length - m] = plan_.lag_weight[m] * elements_[length - m];
-  }
-  lags_[0] += plan_.lag_weight[0] / plan_.lag[0] * Complex(side_[0].noise, sides > 1 ? side_[1].noise : 0);
-  plan_.to_period.run(lags_.data(), power_.data() + guards_before);
-  repeat_ends(power_);
-  for (std::size_t b = 0; b < drawn_.size(); ++b) {
-    const Complex power = beams_.in_power[b].of(power_.data());
-    side_[0].power[b] = power.real(), side_[1].power[b] = power.imag();
+  const Complex noise = Complex(side_[0].noise, sides > 1 ? side_[1].noise : 0) / static_cast<double>(field_parts);
+  for (std::size_t q = 0; q < field_parts; ++q) {
+    plan_.to_elements.run(power_at_[q].data(), elements_.data());
+    for (std::size_t m = 0; m < plan_.lag.size(); ++m) {
+      lags_[m] = plan_.lag_weight[m] * elements_[m];
+      if (m > 0) lags_[length - m] = plan_.lag_weight[m] * elements_[length - m];
+    }
+    lags_[0] += plan_.lag_weight[0] / plan_.lag[0] * noise;
+    plan_.to_period.run(lags_.data(), power_.data() + guards_before);
+    repeat_ends(power_);
+    for (std::size_t b = 0; b < drawn_.size(); ++b) {
+      const Complex power = beams_.in_power[b].of(power_.data());
+      const double least = std::numeric_limits<double>::min();
+      side_[0].power[q][b] = std::max({power.real(), noise.real(), least});
+      side_[1].power[q][b] = std::max({power.imag(), noise.imag(), least});
+    }
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "beamforming/display/cell_row_internal.hpp"
 #include "beamforming/display/label_row_internal.hpp"
@@ -35,7 +34,6 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
       spectrum_(plan.all_length),
       beside_(plan.all_length),
       all_samples_(plan.all_length + guards_before + guards_behind),
-      power_at_(plan.period),
       lags_(plan.period),
       power_(plan.period + guards_before + guards_behind),
       elements_(plan.period),
@@ -48,11 +46,13 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
       noise_im_(plan.lag.size()) {
   const std::size_t beams = row.beams.u_beam.size();
   for (Side& side : side_) {
-    for (auto* numbers : {&side.mean, &side.power}) numbers->resize(beams);
+    side.mean.resize(beams);
+    for (auto& power : side.power) power.resize(beams);
     side.looks.resize(row.beams.broad_used.size());
     for (auto& field : side.field) field.resize(plan.period + guards_before + guards_behind);
   }
-  for (auto& nodes : nodes_) nodes.resize(plan.period);
+  for (auto* by_part : {&nodes_, &power_at_})
+    for (auto& nodes : *by_part) nodes.resize(plan.period);
   for (auto* numbers : {&even_.variate, &even_.from, &even_.looks, &even_.mean, &even_.strong, &drawn_})
     numbers->resize(beams);
   if (row.labelled) labels_ = std::make_unique<LabelRow>(plan, lists, *row.labelled);
@@ -77,7 +77,7 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
         image(static_cast<Eigen::Index>(b), column + static_cast<Eigen::Index>(s)) = side_[s].mean[b];
     return;
   }
-  std::fill(power_at_.begin(), power_at_.end(), Complex(0));
+  for (auto& nodes : power_at_) std::fill(nodes.begin(), nodes.end(), Complex(0));
   for (std::size_t s = 0; s < sides; ++s) {
     Side& side = side_[s];
     partition_strong(side);
@@ -215,36 +215,47 @@ double CellRow::heard_of(const Piece& piece, std::size_t beam) const {
   return piece.energy * plan_.response.intensity(static_cast<double>(piece.echo->u) - beams_.u_beam[beam]);
 }
 
+void CellRow::set_variate(std::size_t beam, const Side& side, std::size_t from) {
+  double sum = 0, roots = 0, powers = 0;
+  for (std::size_t q = from; q < field_parts; ++q) {
+    const double power = side.power[q][beam], root = std::sqrt(power);
+    sum += std::norm(beams_.in_field[beam].of(side.field[q].data())) / root;
+    roots += root, powers += power;
+  }
+  even_.variate[beam] = sum / roots, even_.from[beam] = roots * roots / powers;  // (E183)
+}
+
 void CellRow::draw(const Side& side) {
   for (std::size_t b = 0; b < drawn_.size(); ++b) {
-    const BetweenFields& position = beams_.in_field[b];
-    const Complex f = position.of(side.field[0].data()), g = position.of(side.field[1].data());
-    const double power = std::max({side.power[b], side.noise, std::numeric_limits<double>::min()});
-    even_.variate[b] = (std::norm(f) + std::norm(g)) / (2 * power);
-    even_.from[b] = 2, even_.looks[b] = looks_at(beams_.broad_of[b], side.looks);
+    even_.looks[b] = looks_at(beams_.broad_of[b], side.looks);
     even_.mean[b] = side.mean[b], even_.strong[b] = 0;
-    if (side.groups > 0) add_groups(b, side, {f, g}, power);
+    set_variate(b, side, 0);
+    if (side.groups > 0) add_groups(b, side);
   }
   kernels::draw_looks(
       {even_.variate.data(), even_.from.data(), even_.looks.data(), even_.mean.data(), even_.strong.data()},
       drawn_.size(), drawn_.data());  // (E183)
 }
 
-void CellRow::add_groups(std::size_t beam, const Side& side, const std::array<Complex, 2>& field, double power) {
+void CellRow::add_groups(std::size_t beam, const Side& side) {
   const double mean = even_.mean[beam], looks = even_.looks[beam];
-  const double unit = mean / (looks * power);  // of one look of the even ground
-  double strong = 0, taken = 0;
+  double strong = 0;
+  std::size_t taken = 0;
   for (std::size_t k = 0; k < side.groups; ++k) {
-    const Complex s = beams_.in_field[beam].of(side.strong_field[k].data());
+    const BetweenFields& position = beams_.in_field[beam];
+    Complex s = position.of(side.strong_field[k].data());
     // A group interferes with one look of the even ground, if it is not far weaker.
-    const bool interferes = std::norm(s) > least_interference * mean / looks && taken + 1 < looks;
-    strong += std::norm(interferes ? std::sqrt(unit) * field[static_cast<std::size_t>(taken) % 2] + s : s);  // (E184)
-    taken += interferes;
+    if (std::norm(s) > least_interference * mean / looks && static_cast<double>(taken + 1) < looks) {
+      const std::size_t q = taken++ % field_parts;
+      s += std::sqrt(mean / (looks * side.power[q][beam])) * position.of(side.field[q].data());
+    }
+    strong += std::norm(s);  // (E184)
   }
   even_.strong[beam] = strong;
   if (taken == 0) return;
-  even_.variate[beam] = std::norm(field[1]) / power, even_.from[beam] = 1;
-  even_.looks[beam] = looks - taken, even_.mean[beam] = mean * (looks - taken) / looks;
+  set_variate(beam, side, std::min(taken, field_parts - 1));
+  const double left = looks - static_cast<double>(taken);
+  even_.looks[beam] = left, even_.mean[beam] = mean * left / looks;
 }
 
 }  // namespace insonify

@@ -17,20 +17,19 @@
 namespace insonify {
 
 /// An echo, as the cells of all rows of beams take it, at the peak of their responses: in single precision, so that it
-/// is one line of the cache.
+/// is less than one line of the cache.
 struct CellEcho {
-  float range = 0, half_depth = 0;                ///< [m]
-  float u = 0;                                    ///< direction cosine of its middle
-  float half_width = 0;                           ///< in u
-  float slope = 0, across = 0;                    ///< change of u with range [1/m], half width at one range (E189)
-  float energy = 0;                               ///< energy of its surface in a cell that holds all of it [Pa^2]
-  float strength = 0;                             ///< its own energy in such a cell [Pa^2]
-  float together = 1;                             ///< energy of all echoes of its amplitude, which add as pressures,
-                                                  ///< in its own; 0: its amplitude is not random
-  std::array<std::complex<float>, 2> pressure{};  ///< its phase, times random amplitudes of mean power 1; of an echo
-                                                  ///< whose amplitude is not random the second is 0
-  std::uint32_t node = 0;                         ///< node of its middle
-  std::uint32_t port = 0, starboard = 0;          ///< broad nodes of its ends
+  float range = 0, half_depth = 0;        ///< [m]
+  float u = 0;                            ///< direction cosine of its middle
+  float half_width = 0;                   ///< in u
+  float slope = 0, across = 0;            ///< change of u with range [1/m], half width at one range (E189)
+  float energy = 0;                       ///< energy of its surface in a cell that holds all of it [Pa^2]
+  float strength = 0;                     ///< its own energy in such a cell [Pa^2]
+  float together = 1;                     ///< energy of all echoes of its amplitude, which add as pressures,
+                                          ///< in its own; 0: its amplitude is not random
+  std::complex<float> pressure{};         ///< its phase, times the random amplitude that samples have (E9), if any
+  std::uint32_t node = 0;                 ///< node of its middle
+  std::uint32_t port = 0, starboard = 0;  ///< broad nodes of its ends
 
   /// Returns the half length [m] of surface and pulse together, for a pulse of this half length.
   float reach(double pulse) const {
@@ -38,7 +37,7 @@ struct CellEcho {
     return static_cast<float>(std::sqrt(depth * depth + pulse * pulse));
   }
 };
-static_assert(sizeof(CellEcho) == 64);
+static_assert(sizeof(CellEcho) <= 64);
 
 /// Returns the length of the overlap of [low, high] with [first, last].
 inline double overlap(double low, double high, double first, double last) {
@@ -100,10 +99,10 @@ class CellRow {
     double energy = 0;                ///< energy of all echoes [Pa^2]
     double noise = 0;                 ///< power of the noise in the fields of the beams [Pa^2]
     std::vector<double> mean;         ///< expected intensity of each beam [Pa^2]
-    std::vector<double> power;        ///< expected power of the field of each beam [Pa^2]
     std::vector<double> looks;        ///< number of looks at each broad node in use (E182)
-    std::array<std::vector<Complex>, 2> field;       ///< sums over echoes at a period of u, with guards (E183)
-    std::vector<std::vector<Complex>> strong_field;  ///< field of the strong echoes, by groups that interfere
+    std::array<std::vector<Complex>, field_parts> field;  ///< sums over echoes at a period of u, with guards (E183)
+    std::array<std::vector<double>, field_parts> power;   ///< their expected power in each beam [Pa^2]
+    std::vector<std::vector<Complex>> strong_field;       ///< field of the strong echoes, by groups that interfere
     std::size_t groups = 0;
   };
 
@@ -142,7 +141,9 @@ class CellRow {
   /// Turns pressures at the elements, from first_element on, into samples of their field.
   void form_period(const std::vector<Complex>& elements, std::vector<Complex>& samples);
   void draw(const Side& side);
-  void add_groups(std::size_t beam, const Side& side, const std::array<Complex, 2>& field, double power);
+  /// Sets the variate of a beam and its looks from the fields of parts `from` on.
+  void set_variate(std::size_t beam, const Side& side, std::size_t from);
+  void add_groups(std::size_t beam, const Side& side);
 
   const DisplayPlan& plan_;
   const EchoesByCell& lists_;
@@ -152,10 +153,11 @@ class CellRow {
   std::array<Side, 2> side_;
   std::array<Densities, 3> densities_;
   std::vector<Complex> all_, spectrum_, beside_,
-      all_samples_;                               ///< energies of cells over u, and those that beams receive
-  std::vector<Complex> power_at_, lags_, power_;  ///< powers of both fields over a period of u, likewise
-  std::vector<Complex> elements_, weighted_;      ///< pressures at elements; the same weighted, 0 elsewhere
-  std::array<std::vector<Complex>, 2> nodes_;
+      all_samples_;                                         ///< energies of cells over u, and those that beams receive
+  std::array<std::vector<Complex>, field_parts> power_at_;  ///< powers of the fields by nodes, likewise
+  std::vector<Complex> lags_, power_;                       ///< those of one part over a period of u
+  std::vector<Complex> elements_, weighted_;                ///< pressures at elements; the same weighted, 0 elsewhere
+  std::array<std::vector<Complex>, field_parts> nodes_;
   std::vector<float> energy_, alike_;  ///< energies of broad nodes (kernels::CellEnergies)
   std::vector<float> whole_;           ///< the same over all ranges; empty where no grating lobe is heard
   std::vector<kernels::RangedEnergy> ranged_;

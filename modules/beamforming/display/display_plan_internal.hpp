@@ -20,6 +20,9 @@ struct ReceiveFilter;
 /// Deviations of a pulse's energy in range beyond which it is left out.
 inline constexpr double reach_of_pulse = 4;
 
+/// Parts of a cell's ranges, each with a field of its own (E183).
+inline constexpr std::size_t field_parts = 3;
+
 /// Positions among samples of fields, and of powers. A period has four times as many samples as fields vary with, and
 /// twice as many as powers, whose weak parts count: errors are below 1e-3 and 1e-6 of the root of the mean square.
 using BetweenFields = Between<4>;
@@ -95,7 +98,8 @@ struct DisplayPlan {
   /// (E223).
   float noise_with_ground = 0, noise_alone = 0;
   double field_reach = 0;  ///< half length of the box in range over which an echo's field is shared by cells [m] (E224)
-  double noise_of_next = 0;  ///< part of the noise that a cell has of the next, as an amplitude (E224)
+  double noise_of_next =
+      0;  ///< part of the noise of a cell's last field that is that of the next, as an amplitude (E224)
 
   ResponseTable response;
   PulseEnergy pulse;

@@ -54,8 +54,8 @@ void add_energies(const RangedEnergy* added, std::size_t count, std::size_t subr
 /// cell.energy over the nodes.
 void count_looks(const CellEnergies& cell, const std::size_t* at, std::size_t count, double* looks);
 
-/// Sets re and im to complex normal numbers of mean power 1, one for each id: from 64 mixed bits twice, for speckle and
-/// noise that need no counter of their own (E187).
+/// Sets re and im to complex normal numbers of mean power 1, one for each id: from 64 mixed bits twice, for noise that
+/// needs no counter of its own (E187).
 void draw_normals(std::uint64_t seed, const std::uint64_t* id, std::size_t count, double* re, double* im);
 
 /// Even ground in beams: a gamma variate of mean 1, the number of looks that it has and that it shall have, the mean

@@ -86,10 +86,10 @@ void DisplayPlan::fill_neighbours() {
   const double likeness = mean_of_pairs(*this, cell_length, of_ground) / mean_of_pairs(*this, 0, of_ground);
   field_reach = pulse.half_length();
   if (!(likeness > least_likeness)) return;
-  // Even ground has fields alike by pi / 4 of that reach, in cells.
-  const double alike = std::sqrt(likeness);
-  field_reach = std::clamp(4 / pi * alike * cell_length, field_reach, reach_of_pulse * pulse.deviation());
-  noise_of_next = std::sin(0.5 * std::asin(std::min(1.0, 2 * alike)));  // (E224)
+  // The last field of a cell is alike that of the next by pi / 4 of that reach, in parts; they are one of so many looks.
+  const double parts = static_cast<double>(field_parts), alike = std::sqrt(likeness * parts);
+  field_reach = std::clamp(4 / pi * alike * cell_length / parts, field_reach, reach_of_pulse * pulse.deviation());
+  noise_of_next = std::min(1.0, alike);  // (E224)
 }
 
 }  // namespace insonify

@@ -66,7 +66,7 @@ void CellRow::add_strong(const Piece& piece, std::vector<Complex>& elements, std
   const double u = echo.u, away = u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
   const std::size_t count = plan_.lag.size();
   const Complex turn = std::polar(1.0, -step * away);
-  Complex at = static_cast<double>(piece.sign * std::sqrt(piece.energy)) * Complex(echo.pressure[0]) *
+  Complex at = static_cast<double>(piece.sign * std::sqrt(piece.energy)) * Complex(echo.pressure) *
                std::polar(1.0, -step * away * element_position(0, count));
   for (std::size_t m = 0; m < count; ++m, at *= turn) elements[(plan_.first_element + m) % plan_.period] += at;
   // The mean of even ground excludes it.
