@@ -152,7 +152,7 @@ std::vector<std::uint32_t> slots_by_cell(const std::vector<CellSpan>& cells, std
 
 /// Sets the parts of the energies in cells begin .. end - 1.
 void set_parts(const DisplayPlan& plan, std::size_t begin, std::size_t end, EchoesByCell& lists) {
-  const double half = plan.field_reach, per_pulse = 1 / (2 * half);
+  const double half = plan.pulse.half_length(), per_pulse = 1 / (2 * half);
   for (std::size_t cell = begin; cell < end; ++cell) {
     const double first = plan.first_range + static_cast<double>(cell) * plan.cell_length,
                  last = first + plan.cell_length, per_middle = 2 / (first + last);

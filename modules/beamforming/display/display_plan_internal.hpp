@@ -97,7 +97,6 @@ struct DisplayPlan {
   /// Correlation of ground less that of noise with ground, and less that of noise: means over pairs of ranges of a cell
   /// (E223).
   float noise_with_ground = 0, noise_alone = 0;
-  double field_reach = 0;  ///< half length of the box in range over which an echo's field is shared by cells [m] (E224)
   double noise_of_next =
       0;  ///< part of the noise of a cell's last field that is that of the next, as an amplitude (E224)
 

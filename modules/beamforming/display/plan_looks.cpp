@@ -84,12 +84,9 @@ void DisplayPlan::fill_noise_looks(const ReceiveFilter& filter, double sample_le
 void DisplayPlan::fill_neighbours() {
   const auto of_ground = [&](double distance) { return pulse.correlation(distance); };
   const double likeness = mean_of_pairs(*this, cell_length, of_ground) / mean_of_pairs(*this, 0, of_ground);
-  field_reach = pulse.half_length();
-  if (!(likeness > least_likeness)) return;
-  // The last field of a cell is alike that of the next by pi / 4 of that reach, in parts; they are one of so many looks.
-  const double parts = static_cast<double>(field_parts), alike = std::sqrt(likeness * parts);
-  field_reach = std::clamp(4 / pi * alike * cell_length / parts, field_reach, reach_of_pulse * pulse.deviation());
-  noise_of_next = std::min(1.0, alike);  // (E224)
+  // The last field of a cell is one of so many looks. Ground shares as much through echoes of both cells.
+  const double parts = static_cast<double>(field_parts);
+  if (likeness > least_likeness) noise_of_next = std::min(1.0, std::sqrt(likeness * parts));  // (E224)
 }
 
 }  // namespace insonify
