@@ -62,26 +62,27 @@ double CellEdges::sum_at(double x, double part) const {
 }
 
 std::size_t CellEdges::parts_between(const Edge& near, const Edge& far, double range, double half_depth,
-                                     std::array<Part, most_parts>& parts) const {
+                                     double per_metre, std::array<Part, most_parts>& parts) const {
   const double begin = near.range - range, end = far.range - range;
-  parts[0] = {0, half_depth, 1};
-  if (begin + reach_ < -half_depth && half_depth < end - reach_) return 1;
   const double low = std::clamp(begin - reach_, -half_depth, half_depth),
-               high = std::clamp(end + reach_, -half_depth, half_depth), half = 0.5 * (high - low) / most_parts;
+               high = std::clamp(end + reach_, -half_depth, half_depth);
+  parts[0] = {0.5 * (low + high), 0.5 * (high - low), 1};
+  if (begin + reach_ < -half_depth && half_depth < end - reach_) return 1;
+  const double wanted = std::clamp(std::ceil((high - low) * per_metre), 1.0, static_cast<double>(most_parts));
+  const auto count = static_cast<std::size_t>(wanted);
+  const double half = 0.5 * (high - low) / wanted;
+  std::array<double, most_parts> heard;
   double sum = 0;
-  for (std::size_t k = 0; k < most_parts; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     const double middle = low + static_cast<double>(2 * k + 1) * half;
-    parts[k] = {
-        middle, half,
-        share_at((end - middle) * per_deviation_, far.part) - share_at((begin - middle) * per_deviation_, near.part)};
-    sum += parts[k].share;
+    heard[k] =
+        share_at((end - middle) * per_deviation_, far.part) - share_at((begin - middle) * per_deviation_, near.part);
+    sum += heard[k];
   }
-  if (!(sum > 0)) {
-    parts[0] = {0.5 * (low + high), 0.5 * (high - low), 1};
-    return 1;
-  }
-  for (Part& part : parts) part.share /= sum;
-  return most_parts;
+  if (!(sum > 0)) return 1;
+  for (std::size_t k = 0; k < count; ++k)
+    parts[k] = {low + static_cast<double>(2 * k + 1) * half, half, heard[k] / sum};
+  return count;
 }
 
 }  // namespace insonify

@@ -44,9 +44,9 @@ class CellEdges {
     double middle, half, share;
   };
   static constexpr std::size_t most_parts = 8;
-  /// Sets the parts that the cell between two edges hears of the same surface (E189), evenly over it; returns their number,
-  /// 1 of a surface within the cell.
-  std::size_t parts_between(const Edge& near, const Edge& far, double range, double half_depth,
+  /// Sets the parts that the cell between two edges hears of the same surface (E189), evenly over it, so many of each metre;
+  /// returns their number, 1 of a surface within the cell.
+  std::size_t parts_between(const Edge& near, const Edge& far, double range, double half_depth, double per_metre,
                             std::array<Part, most_parts>& parts) const;
 
   /// Returns how far from an edge an echo without depth may be to have energy on either side of it [m].

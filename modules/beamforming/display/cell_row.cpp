@@ -12,6 +12,7 @@ namespace {
 
 constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
 constexpr double rounding = 1e-13;    // part of the louder of two cells that transforms leave in the other
+constexpr double parts_per_node = 4;  // parts of a tilted surface for each node of u along it
 constexpr double least_tilt = 0.25;   // change of u along a surface from which on its parts differ [nodes]
 constexpr double least_interference = 0.1;  // of the energy of a look, from which on a strong echo interferes with it
 
@@ -126,13 +127,15 @@ void CellRow::label(std::size_t cell, Side& side) {
 
 void CellRow::add_surface(const CellEcho& echo, double energy, std::size_t cell, std::vector<Complex>& to) const {
   double* const at = reinterpret_cast<double*>(to.data()) + cell % 2;
-  if (static_cast<double>(std::abs(echo.slope) * echo.half_depth) < least_tilt * plan_.node_width)
+  const double nodes_per_metre = static_cast<double>(std::abs(echo.slope)) / plan_.node_width;
+  if (static_cast<double>(echo.half_depth) * nodes_per_metre < least_tilt)
     return add_box(echo.u, echo.half_width, energy, at);
   // Parts of a tilted surface have directions of their own (E189).
   const double begin = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   std::array<CellEdges::Part, CellEdges::most_parts> parts;
-  const std::size_t count = plan_.edges.parts_between(plan_.edges.at(begin), plan_.edges.at(begin + plan_.cell_length),
-                                                      echo.range, echo.half_depth, parts);
+  const std::size_t count =
+      plan_.edges.parts_between(plan_.edges.at(begin), plan_.edges.at(begin + plan_.cell_length), echo.range,
+                                echo.half_depth, parts_per_node * nodes_per_metre, parts);
   for (std::size_t k = 0; k < count; ++k) {
     const double along = echo.slope * parts[k].half, across = echo.across;
     add_box(echo.u + echo.slope * parts[k].middle, std::sqrt(across * across + along * along), energy * parts[k].share,
