@@ -6,6 +6,7 @@
 
 #include "beamforming/display/display_plan_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
+#include "beamforming/display/mean_of_pairs_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "core/units.hpp"
 
@@ -87,11 +88,8 @@ void DisplayPlan::correlate_parts(double low, double part, double turns) {
   }
   constexpr int pairs = 32;
   for (std::size_t d = 0; d < gratings.bands; ++d) {
-    double mean = 0;
-    for (int k = -pairs; k < pairs; ++k) {
-      const double s = (k + 0.5) / pairs;
-      mean += (1 - std::abs(s)) * sinc_square((static_cast<double>(d) + s) * part * turns) / pairs;
-    }
+    const double mean =
+        mean_of_pairs(pairs, [&](double s) { return sinc_square((static_cast<double>(d) + s) * part * turns); });
     gratings.alike.push_back(mean > least_alike ? static_cast<float>(mean) : 0);
   }
   while (gratings.alike.size() > 1 && gratings.alike.back() == 0) gratings.alike.pop_back();

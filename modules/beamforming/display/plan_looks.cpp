@@ -7,6 +7,7 @@
 
 #include "beamforming/display/display_plan_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
+#include "beamforming/display/mean_of_pairs_internal.hpp"
 #include "beamforming/numerics/receive_filter_internal.hpp"
 #include "core/units.hpp"
 
@@ -20,15 +21,10 @@ constexpr double most_steps = 8192;      // largest number of steps of such a su
 
 /// Returns the mean of f(r' - r) over all r of a cell and all r' of one that begins `ahead` [m] farther.
 template <typename Function>
-double mean_of_pairs(const DisplayPlan& plan, double ahead, const Function& f) {
+double mean_over_ranges(const DisplayPlan& plan, double ahead, const Function& f) {
   const double length = plan.cell_length, resolved = std::max(plan.pulse.half_length(), 1e-9);
   const auto steps = static_cast<int>(std::clamp(steps_per_pulse * length / resolved, 64.0, most_steps));
-  double mean = 0;
-  for (int k = -steps; k < steps; ++k) {
-    const double s = (k + 0.5) / steps;
-    mean += (1 - std::abs(s)) * f(std::abs(ahead + s * length)) / steps;
-  }
-  return mean;
+  return mean_of_pairs(steps, [&](double s) { return f(std::abs(ahead + s * length)); });
 }
 
 /// Returns the squared magnitudes of the correlation of samples of noise 0, 1, .. apart, fewer than `count`; those beyond
@@ -54,11 +50,8 @@ void DisplayPlan::fill_looks() {
   const double length = cell_length / static_cast<double>(subranges);
   constexpr int steps = 32;
   for (std::size_t d = 0; d < subranges; ++d) {
-    double mean = 0;
-    for (int k = -steps; k < steps; ++k) {
-      const double s = (k + 0.5) / steps;
-      mean += (1 - std::abs(s)) * pulse.correlation((static_cast<double>(d) + s) * length) / steps;
-    }
+    const double mean =
+        mean_of_pairs(steps, [&](double s) { return pulse.correlation((static_cast<double>(d) + s) * length); });
     if (d > 0 && mean < 1e-4) break;
     looks.push_back(static_cast<float>(mean));
   }
@@ -76,14 +69,14 @@ void DisplayPlan::fill_noise_looks(const ReceiveFilter& filter, double sample_le
   };
   const auto of_ground = [&](double distance) { return pulse.correlation(distance); };
   const auto of_both = [&](double distance) { return std::sqrt(of_noise(distance) * of_ground(distance)); };
-  const double ground = mean_of_pairs(*this, 0, of_ground);
-  noise_with_ground = static_cast<float>(ground - mean_of_pairs(*this, 0, of_both));
-  noise_alone = static_cast<float>(ground - mean_of_pairs(*this, 0, of_noise));  // (E223)
+  const double ground = mean_over_ranges(*this, 0, of_ground);
+  noise_with_ground = static_cast<float>(ground - mean_over_ranges(*this, 0, of_both));
+  noise_alone = static_cast<float>(ground - mean_over_ranges(*this, 0, of_noise));  // (E223)
 }
 
 void DisplayPlan::fill_neighbours() {
   const auto of_ground = [&](double distance) { return pulse.correlation(distance); };
-  const double likeness = mean_of_pairs(*this, cell_length, of_ground) / mean_of_pairs(*this, 0, of_ground);
+  const double likeness = mean_over_ranges(*this, cell_length, of_ground) / mean_over_ranges(*this, 0, of_ground);
   // The last field of a cell is one of so many looks. Ground shares as much through echoes of both cells.
   const double parts = static_cast<double>(field_parts);
   if (likeness > least_likeness) noise_of_next = std::min(1.0, std::sqrt(likeness * parts));  // (E224)
