@@ -30,7 +30,7 @@ CellEdges::CellEdges(double deviation, double first_range, double sample_length)
   per_step_ = static_cast<double>(steps) / (high_ - low_);
   for (std::size_t n = 0; n <= steps; ++n) {
     const double x = low_ + static_cast<double>(n) / per_step_;
-    Entry share, sum;
+    Entry share, sum;  // (E227)
     if (sample_length == 0) {
       share.before = below(x), sum.before = x * below(x) + density(x);
     } else {
