@@ -58,6 +58,10 @@ double worst_difference(const CellEdges& edges, const Share& share) {
 TEST(CellEdges, shares_are_those_of_the_samples_that_edges_divide) {
   EXPECT_LT(worst_difference(CellEdges(deviation, first_range, sample_length), share_of_samples), 4e-4);
   EXPECT_LT(worst_difference(CellEdges(deviation, first_range, 0), share_of_range), 4e-4);
+  EXPECT_LT(worst_difference(CellEdges(deviation, first_range, 1e-9), share_of_range), 4e-4);
+  // Samples far coarser than the pulse, and a pulse without length.
+  EXPECT_TRUE(std::isfinite(CellEdges(1e-6, first_range, 1).before({1, 0.5}, 1, 0)));
+  EXPECT_EQ(CellEdges(0, first_range, 0).before({1, 0}, 0.9, 0), 1);
 }
 
 TEST(CellEdges, an_echo_alone_has_the_energy_of_its_samples) {

@@ -9,7 +9,9 @@ namespace insonify {
 namespace {
 
 constexpr double steps_per_deviation = 64;  // lines between them are within 1e-5
-constexpr double least_deviation = 1e-9;    // [m]
+constexpr double most_entries = 65536;
+constexpr double least_period = 0.125;    // deviations between samples from which on these differ from an integral
+constexpr double least_deviation = 1e-9;  // [m]
 
 double density(double x) { return std::abs(x) < reach_of_pulse ? std::exp(-0.5 * x * x) / std::sqrt(2 * pi) : 0; }
 double below(double x) {
@@ -19,19 +21,19 @@ double below(double x) {
 
 }  // namespace
 
-CellEdges::CellEdges(double deviation, double first_range, double sample_length)
-    : first_range_(first_range), sample_length_(sample_length) {
+CellEdges::CellEdges(double deviation, double first_range, double sample_length) : first_range_(first_range) {
   const double unit = std::max(deviation, least_deviation);
   per_deviation_ = 1 / unit;
-  period_ = sample_length > 0 ? sample_length / unit : 1;
-  reach_ = reach_of_pulse * unit + 0.5 * sample_length;
+  sample_length_ = sample_length > least_period * unit ? sample_length : 0;
+  period_ = sample_length_ > 0 ? sample_length_ / unit : 1;
+  reach_ = reach_of_pulse * unit + 0.5 * sample_length_;
   low_ = -reach_of_pulse, high_ = reach_of_pulse + period_;
-  const auto steps = static_cast<std::size_t>(std::ceil((high_ - low_) * steps_per_deviation));
+  const auto steps = static_cast<std::size_t>(std::min(most_entries, std::ceil((high_ - low_) * steps_per_deviation)));
   per_step_ = static_cast<double>(steps) / (high_ - low_);
   for (std::size_t n = 0; n <= steps; ++n) {
     const double x = low_ + static_cast<double>(n) / per_step_;
     Entry share, sum;  // (E227)
-    if (sample_length == 0) {
+    if (sample_length_ == 0) {
       share.before = below(x), sum.before = x * below(x) + density(x);
     } else {
       share.here = period_ * density(x), sum.here = period_ * below(x);
