@@ -60,14 +60,13 @@ struct CellLabels {
 ///
 /// The expected intensity is the sum of the energies of the echoes, times the pattern of the beam, averaged over the
 /// band (E181). The number of looks of a cell follows from the ranges of its energy, from the pulse and from the noise
-/// (E182, E223, E226). Speckle is a gamma variate of so many looks that is made from two complex sums over the echoes, with
-/// their phases and with random amplitudes by id, so that it stays with the surface and changes with the pose as that of
-/// samples does (E183).
-/// Echoes that hold more than a tenth of a cell are added to it as pressures (E184), and so are `fixed` ones, whose
+/// (E182, E223, E226). Speckle is a gamma variate of so many looks that is made from three complex sums, over the echoes of
+/// thirds of its ranges, with their phases and with the random amplitudes of samples, so that it stays with the surface and
+/// changes with the pose as that of samples does (E183). Echoes that hold more than a tenth of a cell are added to it as pressures (E184), and so are `fixed` ones, whose
 /// amplitudes are not random.
 ///
-/// Accuracy against cells of true_delays samples, of 14 looks or more and off grating lobes (docs/results/display.md):
-/// bands of range 0.07 dB, cells 0.3 dB rms in the mean; contrast 5 %. Doppler shifts are ignored. Throws Error for an
+/// Accuracy against cells of true_delays samples (docs/results/display.md): bands of range 0.05 dB, cells 0.3 dB rms in the
+/// mean; contrast 5 %. Doppler shifts are ignored. Throws Error for an
 /// invalid head or medium, for arrays of different lengths, and for a head with several rows or a column unless
 /// echoes.v has one entry per echo.
 Grid<double> synthesize_cells(const SurfaceEchoes& surface, const Echoes& fixed, const SonarHead& head,
