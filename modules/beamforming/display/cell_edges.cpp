@@ -11,7 +11,7 @@ namespace {
 constexpr double steps_per_deviation = 64;  // lines between them are within 1e-5
 constexpr double most_entries = 65536;
 constexpr double least_period = 0.125;    // deviations between samples from which on these differ from an integral
-constexpr double least_deviation = 1e-9;  // [m]
+constexpr double least_deviation = 1e-9;  // smallest deviation of a pulse [m]
 
 double density(double x) { return std::abs(x) < reach_of_pulse ? std::exp(-0.5 * x * x) / std::sqrt(2 * pi) : 0; }
 double below(double x) {

@@ -14,7 +14,7 @@ namespace insonify {
 /// up to 5 % more or less energy in samples than in an integral over range, by where it stands among them.
 class CellEdges {
  public:
-  /// deviation       of the pulse's energy in range [m], which is a normal law up to `reach` deviations
+  /// deviation       standard deviation of the pulse's energy in range [m], a normal law as far as reach_of_pulse
   /// sample_length   distance of samples [m]; 0: the mean is an integral over range
   CellEdges(double deviation, double first_range, double sample_length);
 
