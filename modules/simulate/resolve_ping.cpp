@@ -17,7 +17,7 @@ namespace {
 
 constexpr double nearest_range = 0.1;  // [m]: spreading would have no bound nearer by
 constexpr double nothing_db = -400;    // a pattern's level that is nothing
-constexpr double scatterers_per_display_cell = 2;
+constexpr double scatterers_per_display_cell = 1;
 constexpr double rounding = 1.001;  // of the ball that holds all paths
 
 EchoOptions echo_options_of(const SonarHead& head, const SimulationOptions& o) {
