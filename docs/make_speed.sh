@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Times pings and surveys and prints docs/results/speed.md: cold pings as processes (/usr/bin/time), warm pings inside one process
-# (tests/benchmarks/speed/ping_speed.cpp), and a survey against single calls. Takes five minutes; give it a quiet machine.
+# (tests/benchmarks/speed/ping_speed.cpp), and a survey against single calls. Takes seven minutes; give it a quiet machine.
 #   docs/make_speed.sh [build/dev/bin] > docs/results/speed.md
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -79,3 +79,11 @@ taken to be the smaller of 10 Hz and c / 2 r_max; a real-time factor above 1 mea
 
 TEXT
 "$bin/ping_speed" presets
+cat <<TEXT
+
+## Real time as display images
+
+\`ping_speed display\`: the same presets as images of 600 cells with noise (\`--display 600 --noise\`), on the harbour.
+
+TEXT
+"$bin/ping_speed" display
