@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Inner loops of display cells against sums in double precision and laws of random numbers.
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -214,17 +216,29 @@ TEST(DisplayLoops, normal_numbers_have_moments_of_their_law_and_are_independent)
 
 TEST(DisplayLoops, drawn_intensities_have_their_mean_and_looks) {
   constexpr std::size_t count = 1 << 18;
-  const auto f = display_normals(3, count), g = display_normals(4, count);
-  std::vector<double> variate(count), from(count, 2), mean(count, 3), strong(count, 0.5), drawn(count);
-  for (std::size_t k = 0; k < count; ++k) variate[k] = 0.5 * (std::norm(f[k]) + std::norm(g[k]));
-  for (const double looks : {4.0, 19.0}) {
-    const std::vector<double> wanted(count, looks);
-    kernels::draw_looks({variate.data(), from.data(), wanted.data(), mean.data(), strong.data()}, count, drawn.data());
-    double sum = 0, squares = 0;
-    for (const double value : drawn) sum += value - 0.5, squares += (value - 0.5) * (value - 0.5);
-    const double average = sum / count, contrast = std::sqrt(squares / count - average * average) / average;
-    EXPECT_NEAR(average, 3, 0.01 * 3) << looks;
-    EXPECT_NEAR(contrast, 1 / std::sqrt(looks), 0.01 / std::sqrt(looks) + 0.002) << looks;
+  std::array<std::vector<double>, 3> intensity, power;
+  for (std::size_t q = 0; q < 3; ++q) {
+    power[q].assign(count, 2);
+    for (const auto& field : display_normals(3 + q, count)) intensity[q].push_back(2 * std::norm(field));
+  }
+  const std::vector<double> mean(count, 3), strong(count, 0.5);
+  std::vector<double> drawn(count);
+  for (const std::size_t fields : {3u, 2u}) {
+    if (fields == 2) intensity[2].assign(count, 0), power[2].assign(count, std::numeric_limits<double>::min());
+    for (const double looks : {4.0, 19.0}) {
+      const std::vector<double> wanted(count, looks);
+      const kernels::EvenGround ground{{intensity[0].data(), intensity[1].data(), intensity[2].data()},
+                                       {power[0].data(), power[1].data(), power[2].data()},
+                                       wanted.data(),
+                                       mean.data(),
+                                       strong.data()};
+      kernels::draw_looks(ground, count, drawn.data());
+      double sum = 0, squares = 0;
+      for (const double value : drawn) sum += value - 0.5, squares += (value - 0.5) * (value - 0.5);
+      const double average = sum / count, contrast = std::sqrt(squares / count - average * average) / average;
+      EXPECT_NEAR(average, 3, 0.01 * 3) << looks << " looks of " << fields;
+      EXPECT_NEAR(contrast, 1 / std::sqrt(looks), 0.01 / std::sqrt(looks) + 0.002) << looks << " looks of " << fields;
+    }
   }
 }
 

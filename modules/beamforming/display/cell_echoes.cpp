@@ -29,7 +29,8 @@ class EchoMaker {
         options_(options),
         metres_per_s_(0.5 * medium.sound_speed),
         per_cell_length_(1 / plan.cell_length),
-        per_node_(1 / plan.node_width) {}
+        per_node_(1 / plan.node_width),
+        pulse_(plan.pulse.half_length()) {}
 
   /// Sets the cells that echoes begin .. end - 1 are in.
   void find_cells(std::size_t begin, std::size_t end, std::vector<CellSpan>& cells) const {
@@ -98,7 +99,8 @@ class EchoMaker {
                      static_cast<float>(phase.real() * a.imag() + phase.imag() * a.real())};
   }
   void set_extent(double u, CellEcho& echo) const {
-    const auto width = static_cast<double>(echo.half_width);
+    const auto width = static_cast<double>(echo.half_width), depth = static_cast<double>(echo.half_depth);
+    echo.reach = static_cast<float>(std::sqrt(depth * depth + pulse_ * pulse_));
     echo.node = node_of(u);
     echo.port = width > 0 ? node_of(u + width) / 2 : echo.node / 2;
     echo.starboard = width > 0 ? node_of(u - width) / 2 : echo.node / 2;
@@ -130,7 +132,7 @@ class EchoMaker {
   const SurfaceEchoes& surface_;
   const Echoes& fixed_;
   const CellOptions& options_;
-  double metres_per_s_, per_cell_length_, per_node_;
+  double metres_per_s_, per_cell_length_, per_node_, pulse_;
 };
 
 /// Returns the position of each echo among those that are in a cell, by their first cells: what a cell holds stands side by

@@ -26,6 +26,7 @@ CellEdges::CellEdges(double deviation, double first_range, double sample_length)
   per_deviation_ = 1 / unit;
   sample_length_ = sample_length > least_period * unit ? sample_length : 0;
   period_ = sample_length_ > 0 ? sample_length_ / unit : 1;
+  per_period_ = 1 / period_;
   reach_ = reach_of_pulse * unit + 0.5 * sample_length_;
   low_ = -reach_of_pulse, high_ = reach_of_pulse + period_;
   const auto steps = static_cast<std::size_t>(std::min(most_entries, std::ceil((high_ - low_) * steps_per_deviation)));
@@ -54,12 +55,12 @@ double CellEdges::between(const std::vector<Entry>& table, double x, double part
 
 double CellEdges::share_at(double x, double part) const {
   if (!(x > low_)) return 0;
-  return between(share_, x > high_ ? x - std::ceil((x - high_) / period_) * period_ : x, part);
+  return between(share_, x > high_ ? x - std::ceil((x - high_) * per_period_) * period_ : x, part);
 }
 
 double CellEdges::sum_at(double x, double part) const {
   if (!(x > low_)) return 0;
-  const double beyond = x > high_ ? std::ceil((x - high_) / period_) * period_ : 0;
+  const double beyond = x > high_ ? std::ceil((x - high_) * per_period_) * period_ : 0;
   return between(sum_, x - beyond, part) + beyond;
 }
 

@@ -63,7 +63,7 @@ class CellEdges {
   double sum_at(double x, double part) const;
   double between(const std::vector<Entry>& table, double x, double part) const;
 
-  double first_range_, sample_length_, per_deviation_, period_, reach_;
+  double first_range_, sample_length_, per_deviation_, period_, per_period_, reach_;
   double low_, high_, per_step_;  // ends of the tables, in deviations
   std::vector<Entry> share_, sum_;
 };

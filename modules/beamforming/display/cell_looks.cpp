@@ -16,19 +16,18 @@ void CellRow::list_energies(std::size_t cell, const Side& side, double unit) {
   float* const whole = whole_.empty() ? nullptr : whole_.data() + plan_.gratings.count;
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   const double per_length = static_cast<double>(plan_.subranges) / plan_.cell_length;
-  const double pulse = plan_.pulse.half_length();
-  const auto per_unit = static_cast<float>(1 / unit), length = static_cast<float>(plan_.subranges);
+  const auto per_unit = static_cast<float>(1 / unit), length = static_cast<float>(plan_.subranges),
+             ranges_per_metre = static_cast<float>(per_length);
   for (const Piece& piece : side.even) {
     const CellEcho& echo = *piece.echo;
     if (piece.energy == 0) continue;
-    const auto position = static_cast<float>((echo.range - first) * per_length),
-               reach = static_cast<float>(echo.reach(pulse) * per_length);
+    const float position = static_cast<float>((echo.range - first) * per_length), reach = echo.reach * ranges_per_metre;
     const float low = std::max(0.f, position - reach), high = std::min(length, position + reach);
     if (!(high > low)) continue;
     const std::uint32_t port = echo.port, starboard = echo.starboard;
     const float of_node = piece.energy * per_unit / static_cast<float>(port - starboard + 1);
     if (whole) whole[starboard] += of_node, whole[port + 1] -= of_node;
-    const float density = piece.energy * per_unit / ((high - low) * static_cast<float>(port - starboard + 1));
+    const float density = of_node / (high - low);
     if (low == 0 && high == length) {
       alike_[starboard] += density, alike_[port + 1] -= density;
       continue;

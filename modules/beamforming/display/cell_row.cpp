@@ -31,6 +31,7 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
       row_(row),
       beams_(row.beams),
       options_(options),
+      nodes_per_u_(1 / plan.node_width),
       all_(plan.all_length),
       spectrum_(plan.all_length),
       beside_(plan.all_length),
@@ -54,8 +55,8 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
   }
   for (auto* by_part : {&nodes_, &power_at_})
     for (auto& nodes : *by_part) nodes.resize(plan.period);
-  for (auto* numbers : {&even_.variate, &even_.from, &even_.looks, &even_.mean, &even_.strong, &drawn_})
-    numbers->resize(beams);
+  for (auto& intensity : even_.intensity) intensity.resize(beams);
+  for (auto* numbers : {&even_.looks, &even_.mean, &even_.strong, &drawn_}) numbers->resize(beams);
   if (row.labelled) labels_ = std::make_unique<LabelRow>(plan, lists, *row.labelled);
 }
 
@@ -125,17 +126,15 @@ void CellRow::label(std::size_t cell, Side& side) {
   labels_->finish(side.mean, row_.element_noise * plan_.lag[0]);
 }
 
-void CellRow::add_surface(const CellEcho& echo, double energy, std::size_t cell, std::vector<Complex>& to) const {
-  double* const at = reinterpret_cast<double*>(to.data()) + cell % 2;
-  const double nodes_per_metre = static_cast<double>(std::abs(echo.slope)) / plan_.node_width;
+void CellRow::add_surface(const CellEcho& echo, double energy, const CellEdges::Edge& near, const CellEdges::Edge& far,
+                          double* at) const {
+  const double nodes_per_metre = static_cast<double>(std::abs(echo.slope)) * nodes_per_u_;
   if (static_cast<double>(echo.half_depth) * nodes_per_metre < least_tilt)
     return add_box(echo.u, echo.half_width, energy, at);
   // Parts of a tilted surface have directions of their own (E189).
-  const double begin = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   std::array<CellEdges::Part, CellEdges::most_parts> parts;
   const std::size_t count =
-      plan_.edges.parts_between(plan_.edges.at(begin), plan_.edges.at(begin + plan_.cell_length), echo.range,
-                                echo.half_depth, parts_per_node * nodes_per_metre, parts);
+      plan_.edges.parts_between(near, far, echo.range, echo.half_depth, parts_per_node * nodes_per_metre, parts);
   for (std::size_t k = 0; k < count; ++k) {
     const double along = echo.slope * parts[k].half, across = echo.across;
     add_box(echo.u + echo.slope * parts[k].middle, std::sqrt(across * across + along * along), energy * parts[k].share,
@@ -144,8 +143,8 @@ void CellRow::add_surface(const CellEcho& echo, double energy, std::size_t cell,
 }
 
 void CellRow::add_box(double u, double half_width, double energy, double* at) const {
-  const double per_node = 1 / plan_.node_width, half = std::max(half_width * per_node, 0.5);
-  const double position = std::clamp((u + 1) * per_node, 0.0, static_cast<double>(plan_.nodes));
+  const double half = std::max(half_width * nodes_per_u_, 0.5);
+  const double position = std::clamp((u + 1) * nodes_per_u_, 0.0, static_cast<double>(plan_.nodes));
   const double low = std::max(position - half, -0.5) + 1,
                high = std::min(position + half, static_cast<double>(plan_.nodes) + 0.5) + 1;
   const double density = energy / (high - low);
@@ -162,15 +161,19 @@ std::vector<CellRow::Complex>& CellRow::densities(std::size_t cell, bool with_wa
   if (kept.cell == cell && kept.with_water == with_water) return kept.at;
   kept.cell = cell, kept.with_water = with_water;
   kept.at.assign(plan_.all_length, Complex(0));
-  for (std::size_t part = 0; part < 2 && cell + part < plan_.cells; ++part)
+  for (std::size_t part = 0; part < 2 && cell + part < plan_.cells; ++part) {
+    const double begin = plan_.first_range + static_cast<double>(cell + part) * plan_.cell_length;
+    const CellEdges::Edge near = plan_.edges.at(begin), far = plan_.edges.at(begin + plan_.cell_length);
+    double* const at = reinterpret_cast<double*>(kept.at.data()) + part;
     for (std::size_t k = lists_.first[cell + part]; k < lists_.first[cell + part + 1]; ++k) {
       const EchoInCell& in = lists_.piece[k];
       const CellEcho& echo = lists_.echoes[in.echo];
       if (echo.together == 0) continue;
       const double response = row_.response.empty() ? 1 : row_.response[in.echo];
       const float energy = static_cast<float>(response * response) * in.energy;
-      if (energy > 0 && (with_water || !labels_->of_water(echo))) add_surface(echo, energy, cell + part, kept.at);
+      if (energy > 0 && (with_water || !labels_->of_water(echo))) add_surface(echo, energy, near, far, at);
     }
+  }
   for (std::size_t i = 1; i < plan_.nodes + 3; ++i) kept.at[i] += kept.at[i - 1];
   return kept.at;
 }
@@ -218,29 +221,21 @@ double CellRow::heard_of(const Piece& piece, std::size_t beam) const {
   return piece.energy * plan_.response.intensity(static_cast<double>(piece.echo->u) - beams_.u_beam[beam]);
 }
 
-void CellRow::set_variate(std::size_t beam, const Side& side, std::size_t from) {
-  double sum = 0, roots = 0, powers = 0;
-  for (std::size_t q = from; q < field_parts; ++q) {
-    const double power = side.power[q][beam], root = std::sqrt(power);
-    sum += std::norm(beams_.in_field[beam].of(side.field[q].data())) / root;
-    roots += root, powers += power;
-  }
-  even_.variate[beam] = sum / roots, even_.from[beam] = roots * roots / powers;  // (E183)
-}
-
-void CellRow::draw(const Side& side) {
+void CellRow::draw(Side& side) {
   for (std::size_t b = 0; b < drawn_.size(); ++b) {
     even_.looks[b] = looks_at(beams_.broad_of[b], side.looks);
     even_.mean[b] = side.mean[b], even_.strong[b] = 0;
-    set_variate(b, side, 0);
+    for (std::size_t q = 0; q < field_parts; ++q)
+      even_.intensity[q][b] = std::norm(beams_.in_field[b].of(side.field[q].data()));
     if (side.groups > 0) add_groups(b, side);
   }
-  kernels::draw_looks(
-      {even_.variate.data(), even_.from.data(), even_.looks.data(), even_.mean.data(), even_.strong.data()},
-      drawn_.size(), drawn_.data());  // (E183)
+  kernels::EvenGround ground{{}, {}, even_.looks.data(), even_.mean.data(), even_.strong.data()};
+  for (std::size_t q = 0; q < field_parts; ++q)
+    ground.intensity[q] = even_.intensity[q].data(), ground.power[q] = side.power[q].data();
+  kernels::draw_looks(ground, drawn_.size(), drawn_.data());  // (E183)
 }
 
-void CellRow::add_groups(std::size_t beam, const Side& side) {
+void CellRow::add_groups(std::size_t beam, Side& side) {
   const double mean = even_.mean[beam], looks = even_.looks[beam];
   double strong = 0;
   std::size_t taken = 0;
@@ -256,7 +251,9 @@ void CellRow::add_groups(std::size_t beam, const Side& side) {
   }
   even_.strong[beam] = strong;
   if (taken == 0) return;
-  set_variate(beam, side, std::min(taken, field_parts - 1));
+  // Fields of which no look interferes are left for the rest of the even ground.
+  for (std::size_t q = 0; q < std::min(taken, field_parts - 1); ++q)
+    even_.intensity[q][beam] = 0, side.power[q][beam] = std::numeric_limits<double>::min();
   const double left = looks - static_cast<double>(taken);
   even_.looks[beam] = left, even_.mean[beam] = mean * left / looks;
 }

@@ -20,6 +20,7 @@ namespace insonify {
 /// is less than one line of the cache.
 struct CellEcho {
   float range = 0, half_depth = 0;        ///< [m]
+  float reach = 0;                        ///< half length of surface and pulse together [m]
   float u = 0;                            ///< direction cosine of its middle
   float half_width = 0;                   ///< in u
   float slope = 0, across = 0;            ///< change of u with range [1/m], half width at one range (E189)
@@ -30,12 +31,6 @@ struct CellEcho {
   std::complex<float> pressure{};         ///< its phase, times the random amplitude that samples have (E9), if any
   std::uint32_t node = 0;                 ///< node of its middle
   std::uint32_t port = 0, starboard = 0;  ///< broad nodes of its ends
-
-  /// Returns the half length [m] of surface and pulse together, for a pulse of this half length.
-  float reach(double pulse) const {
-    const auto depth = static_cast<double>(half_depth);
-    return static_cast<float>(std::sqrt(depth * depth + pulse * pulse));
-  }
 };
 static_assert(sizeof(CellEcho) <= 64);
 
@@ -116,8 +111,10 @@ class CellRow {
   void list_pieces(std::size_t cell, Side& side);
   /// Returns the energies of cells `cell`, which is even, and `cell` + 1. Those of three neighbouring pairs are kept.
   std::vector<Complex>& densities(std::size_t cell, bool with_water);
-  /// Adds the energy of an echo in a cell to the differences of nodes.
-  void add_surface(const CellEcho& echo, double energy, std::size_t cell, std::vector<Complex>& to) const;
+  /// Adds the energy of an echo in the cell between two edges to the differences of nodes; `at`: every other number is of
+  /// a node.
+  void add_surface(const CellEcho& echo, double energy, const CellEdges::Edge& near, const CellEdges::Edge& far,
+                   double* at) const;
   /// Adds energy evenly over u - half_width to u + half_width; `at`: every other number is of a node.
   void add_box(double u, double half_width, double energy, double* at) const;
   /// Adds what beams hear of the cells before and behind to spectrum_ (E188).
@@ -140,16 +137,15 @@ class CellRow {
   void add_noise_of(std::size_t cell, std::size_t q, double amplitude);
   /// Turns pressures at the elements, from first_element on, into samples of their field.
   void form_period(const std::vector<Complex>& elements, std::vector<Complex>& samples);
-  void draw(const Side& side);
-  /// Sets the variate of a beam and its looks from the fields of parts `from` on.
-  void set_variate(std::size_t beam, const Side& side, std::size_t from);
-  void add_groups(std::size_t beam, const Side& side);
+  void draw(Side& side);
+  void add_groups(std::size_t beam, Side& side);
 
   const DisplayPlan& plan_;
   const EchoesByCell& lists_;
   const RowReception& row_;
   const BeamPositions& beams_;
   const CellOptions& options_;
+  double nodes_per_u_;
   std::array<Side, 2> side_;
   std::array<Densities, 3> densities_;
   std::vector<Complex> all_, spectrum_, beside_,
@@ -165,7 +161,8 @@ class CellRow {
   std::vector<double> noise_re_, noise_im_;
   /// Even ground as each beam receives it (kernels::EvenGround).
   struct {
-    std::vector<double> variate, from, looks, mean, strong;
+    std::array<std::vector<double>, field_parts> intensity;
+    std::vector<double> looks, mean, strong;
   } even_;
   std::vector<double> drawn_;
   std::unique_ptr<LabelRow> labels_;

@@ -8,6 +8,7 @@
 
 #include "beamforming/display/between_samples_internal.hpp"
 #include "beamforming/display/cell_edges_internal.hpp"
+#include "beamforming/display/looks_loops_internal.hpp"
 #include "beamforming/display/pulse_energy_internal.hpp"
 #include "beamforming/numerics/fft_internal.hpp"
 #include "sonar/response_table.hpp"
@@ -20,8 +21,7 @@ struct ReceiveFilter;
 /// Deviations of a pulse's energy in range beyond which it is left out.
 inline constexpr double reach_of_pulse = 4;
 
-/// Parts of a cell's ranges, each with a field of its own (E183).
-inline constexpr std::size_t field_parts = 3;
+using kernels::field_parts;
 
 /// Positions among samples of fields, and of powers. A period has four times as many samples as fields vary with, and
 /// twice as many as powers, whose weak parts count: errors are below 1e-3 and 1e-6 of the root of the mean square.

@@ -94,9 +94,9 @@ void LabelRow::add(const CellEcho& echo, double energy) {
   const double sine = row_.sines.empty() ? 0 : row_.sines[i];
   if (sine < lobes.lobe_heights.low || sine > lobes.lobe_heights.high) return;
   const double middle = plan_.first_range + (static_cast<double>(cell_) + 0.5) * plan_.cell_length;
-  const bool in_cell =
-      std::abs(echo.range - middle) <= 0.5 * plan_.cell_length + echo.reach(plan_.pulse.half_length()) &&
-      sine >= lobes.cell_heights.low - echo.half_width && sine <= lobes.cell_heights.high + echo.half_width;
+  const bool in_cell = std::abs(echo.range - middle) <= 0.5 * plan_.cell_length + echo.reach &&
+                       sine >= lobes.cell_heights.low - echo.half_width &&
+                       sine <= lobes.cell_heights.high + echo.half_width;
   Sums& sums = sums_of(row_.echoes.label[i]);
   const double half_width = echo.half_width, half = std::max(half_width, 0.5 * plan_.node_width) / plan_.node_width;
   const double position = (echo.u + 1) / plan_.node_width, last_node = static_cast<double>(plan_.nodes - 1);

@@ -31,6 +31,16 @@ using Lanes = float __attribute__((vector_size(subrange_lanes * sizeof(float))))
 INSONIFY_ALWAYS_INLINE void load(const float* from, Lanes& lanes) { __builtin_memcpy(&lanes, from, sizeof(lanes)); }
 INSONIFY_ALWAYS_INLINE void store(const Lanes& lanes, float* to) { __builtin_memcpy(to, &lanes, sizeof(lanes)); }
 
+/// Returns the sum over all lanes: of halves, quarters and so on, so that no lane waits for fifteen others.
+INSONIFY_ALWAYS_INLINE float sum_of(const Lanes& lanes) {
+  static_assert(subrange_lanes == 16);
+  const auto half = __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3, 4, 5, 6, 7) +
+                    __builtin_shufflevector(lanes, lanes, 8, 9, 10, 11, 12, 13, 14, 15);
+  const auto quarter =
+      __builtin_shufflevector(half, half, 0, 1, 2, 3) + __builtin_shufflevector(half, half, 4, 5, 6, 7);
+  return (quarter[0] + quarter[2]) + (quarter[1] + quarter[3]);
+}
+
 /// Sums up the energies of nodes from their differences; returns those of all nodes in `everywhere`.
 template <std::size_t rows>
 INSONIFY_ALWAYS_INLINE void sum_differences(const CellEnergies& cell, Lanes (&everywhere)[rows]) {
@@ -59,9 +69,7 @@ INSONIFY_ALWAYS_INLINE float heard_of(const float* energy, const float* weight, 
   Lanes sum = {}, at, weights;
   for (std::size_t i = 0; i < count; i += subrange_lanes)
     load(energy + i, at), load(weight + i, weights), sum += at * weights;
-  float all = 0;
-  for (std::size_t l = 0; l < subrange_lanes; ++l) all += sum[l];
-  return all;
+  return sum_of(sum);
 }
 
 /// Adds what the beam at node j hears through grating lobes to its energy and to the sum of its products.
@@ -91,8 +99,7 @@ INSONIFY_ALWAYS_INLINE void add_gratings(const CellEnergies& cell, std::size_t j
   for (std::size_t d = 0; d < of.alike_reach; ++d)
     for (std::size_t r = 0; r < rows; ++r)
       load(parts + r * subrange_lanes + d, other), product += (d > 0 ? 2 : 1) * of.alike[d] * sum[r] * other;
-  for (std::size_t l = 0; l < subrange_lanes; ++l) products += product[l];
-  energy += all;  // (E226)
+  products += sum_of(product), energy += all;  // (E226)
 }
 
 /// Counts looks of cells of so many whole lanes of ranges.
@@ -124,8 +131,7 @@ INSONIFY_ALWAYS_INLINE void count_looks_of(const CellEnergies& cell, const std::
       for (std::size_t r = 0; r < rows; ++r)
         load(padded + r * subrange_lanes + d, other), product += weight * received[r] * other;
     }
-    float sums = 0, products = 0;
-    for (std::size_t l = 0; l < subrange_lanes; ++l) sums += sum[l], products += product[l];
+    float sums = sum_of(sum), products = sum_of(product);
     products -= noise * (2 * (sums - noise) * cell.with_ground + noise * cell.alone);  // (E223)
     if (cell.gratings) add_gratings(cell, j, sums, products);
     looks[k] = products > 0 ? std::max(1.0, static_cast<double>(sums / products * sums)) : 1;  // (E182)
@@ -178,9 +184,13 @@ INSONIFY_CLONES void draw_normals(std::uint64_t seed, const std::uint64_t* id, s
 
 INSONIFY_CLONES void draw_looks(const EvenGround& ground, std::size_t count, double* drawn) {
   const EvenGround of = ground;
+  static_assert(field_parts == 3);
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
-    const double from = of.from[k], to = of.looks[k], variate = of.variate[k] > 1e-300 ? of.variate[k] : 1e-300;
+    const double p0 = of.power[0][k], p1 = of.power[1][k], p2 = of.power[2][k];
+    const double r0 = std::sqrt(p0), r1 = std::sqrt(p1), r2 = std::sqrt(p2), roots = r0 + r1 + r2;
+    const double made = (of.intensity[0][k] / r0 + of.intensity[1][k] / r1 + of.intensity[2][k] / r2) / roots;
+    const double from = roots * roots / (p0 + p1 + p2), to = of.looks[k], variate = made > 1e-300 ? made : 1e-300;
     const double third = vec::exp(vec::log(variate) * (1.0 / 3));
     const double root = 1 - 1 / (9 * to) + std::sqrt(from / to) * (third - 1 + 1 / (9 * from));
     drawn[k] = of.strong[k] + of.mean[k] * (root > 0 ? root * root * root : 0);

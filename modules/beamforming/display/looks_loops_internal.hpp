@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -58,13 +59,17 @@ void count_looks(const CellEnergies& cell, const std::size_t* at, std::size_t co
 /// needs no counter of its own (E187).
 void draw_normals(std::uint64_t seed, const std::uint64_t* id, std::size_t count, double* re, double* im);
 
-/// Even ground in beams: a gamma variate of mean 1, the number of looks that it has and that it shall have, the mean
-/// intensity, and the intensity of what stands out.
+/// Parts of a cell's ranges, each with a field of its own (E183).
+constexpr std::size_t field_parts = 3;
+
+/// Even ground in beams: the intensities of its fields and their expected powers, the number of looks that it shall have,
+/// the mean intensity, and the intensity of what stands out.
 struct EvenGround {
-  const double *variate, *from, *looks, *mean, *strong;
+  std::array<const double*, field_parts> intensity, power;
+  const double *looks, *mean, *strong;
 };
-/// Sets drawn[k] to strong[k] + mean[k] times the variate with so many looks, k < count (Wilson and Hilferty 1931;
-/// E183).
+/// Sets drawn[k] to strong[k] + mean[k] times a gamma variate of mean 1 with so many looks, k < count, from that which
+/// the fields make (Wilson and Hilferty 1931; E183).
 void draw_looks(const EvenGround& ground, std::size_t count, double* drawn);
 
 }  // namespace insonify::kernels
