@@ -75,6 +75,25 @@ TEST(DisplayCells, grating_lobes_are_those_of_the_band) {
   EXPECT_GT(exact.rightCols(3).bottomRows(8).maxCoeff(), 0.1 * peak) << "there is a lobe";
 }
 
+TEST(DisplayCells, far_side_lobes_are_those_of_the_band) {
+  // Echoes stand at one end of the fan; at the other a grating lobe of the band begins.
+  SonarHead head = line_head({.beams = 65, .elements = 64, .field_of_view_deg = 130, .min_range = 2, .max_range = 3});
+  head.gate = display_gate(head.gate, 4);
+  SurfaceEchoes end = even_ground(40);
+  for (std::size_t i = 0; i < end.id.size(); ++i)
+    end.echoes.u[i] = -0.99 + 0.001 * static_cast<double>(i), end.echoes.delay[i] = 2 * 2.4 / lossy.sound_speed;
+  const Grid<double> cells = synthesize_cells(end, {}, head, lossy, {.speckle = false});
+  const Grid<double> exact = cells_by_definition(end, head, lossy);
+  double least = 1;
+  for (Eigen::Index b = 0; b < cells.rows(); ++b) {
+    const double share = exact.row(b).sum() / exact.rowwise().sum().maxCoeff();
+    least = std::min(least, share);
+    // Directions between nodes of u cost up to a tenth of a dB where the pattern is steep.
+    EXPECT_NEAR(db_from_power(cells.row(b).sum() / exact.row(b).sum()), 0, 0.15) << b << ": " << share;
+  }
+  EXPECT_LT(least, 1e-3);
+}
+
 /// Returns how much of the energy of echoes in a cell far beside a beam the beam hears in the cells around, and in all;
 /// drawn: in display cells, else in means of samples, echo by echo.
 std::array<double, 6> heard_around(const SurfaceEchoes& s, SonarHead samples, bool drawn) {

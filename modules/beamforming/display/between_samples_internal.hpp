@@ -13,7 +13,7 @@
 namespace insonify {
 
 /// Samples of a period that are repeated before it and behind it, for positions near its ends.
-inline constexpr std::size_t guards_before = 3, guards_behind = 4;
+inline constexpr std::size_t guards_before = 4, guards_behind = 4;
 
 /// Copies the samples at both ends of a period to the guards beyond the other end.
 template <typename Number>
@@ -24,11 +24,11 @@ void repeat_ends(std::vector<Number>& samples) {
 }
 
 /// A position among the samples of a period with guards, and the weights of those about it (E186).
-template <std::size_t width>
+template <std::size_t width, typename Real = double>
 struct Between {
   static_assert(width / 2 <= guards_before + 1 && width / 2 <= guards_behind);
   std::size_t first;
-  std::array<double, width> weight;
+  std::array<Real, width> weight;
   template <typename Number>
   Number of(const Number* samples) const {
     Number sum = weight[0] * samples[first];
@@ -48,11 +48,13 @@ class SampleKernel {
   }
 
   /// Returns a position >= 0 [samples] within a period.
-  Between<width> at(double position) const {
+  template <typename Real = double>
+  Between<width, Real> at(double position) const {
     const double whole = std::floor(position);
-    Between<width> between{static_cast<std::size_t>(whole) + guards_before + 1 - width / 2, {}};
+    Between<width, Real> between{static_cast<std::size_t>(whole) + guards_before + 1 - width / 2, {}};
     for (std::size_t k = 0; k < width; ++k)
-      between.weight[k] = kernel_.at(position - whole + static_cast<double>(width / 2 - 1) - static_cast<double>(k));
+      between.weight[k] =
+          static_cast<Real>(kernel_.at(position - whole + static_cast<double>(width / 2 - 1) - static_cast<double>(k)));
     return between;
   }
   /// Returns the transform at a frequency [cycles per sample] of at most `highest()`.

@@ -21,7 +21,7 @@ std::uint64_t noise_seed(const CellOptions& options) {
 
 void CellRow::sum_fields(std::size_t cell, std::size_t s) {
   Side& side = side_[s];
-  for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), Complex(0));
+  for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), 0);
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   const double per_length = static_cast<double>(field_parts) / plan_.cell_length;
   for (const Piece& piece : side.even) {
@@ -34,13 +34,14 @@ void CellRow::sum_fields(std::size_t cell, std::size_t s) {
     const double within = std::max(0.0, (static_cast<double>(echo.range) - first) * per_length);
     const std::size_t q = std::min(static_cast<std::size_t>(within), field_parts - 1);
     const double re = echo.pressure.real(), im = echo.pressure.imag();
-    nodes_[q][position] += Complex(turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re);
+    nodes_[q][position] += std::complex<float>{static_cast<float>(turn.real() * re - turn.imag() * im),
+                                               static_cast<float>(turn.real() * im + turn.imag() * re)};
     reinterpret_cast<double*>(&power_at_[q][position])[s] += piece.field;
   }
   for (std::size_t q = 0; q < field_parts; ++q) {
-    plan_.to_elements.run(nodes_[q].data(), elements_.data());
+    plan_.field_to_elements.run(nodes_[q].data(), at_elements_.data());
     add_noise(cell, q, side.noise / static_cast<double>(field_parts));
-    form_period(elements_, side.field[q]);
+    form_field(side.field[q]);
   }
 }
 
@@ -57,20 +58,21 @@ void CellRow::add_noise_of(std::size_t cell, std::size_t q, double amplitude) {
   kernels::draw_normals(noise_seed(options_), noise_id_.data(), noise_id_.size(), noise_re_.data(), noise_im_.data());
   std::size_t at = plan_.first_element;
   for (std::size_t m = 0; m < noise_id_.size(); ++m) {
-    elements_[at] += amplitude * Complex(noise_re_[m], noise_im_[m]);
+    at_elements_[at] +=
+        std::complex<float>{static_cast<float>(amplitude * noise_re_[m]), static_cast<float>(amplitude * noise_im_[m])};
     if (++at == plan_.period) at = 0;
   }
 }
 
-void CellRow::form_period(const std::vector<Complex>& elements, std::vector<Complex>& samples) {
+void CellRow::form_field(Field& samples) {
   const std::size_t count = plan_.element_weight.size(), length = plan_.period;
   std::size_t from = plan_.first_element, to = length - count / 2;
   for (std::size_t m = 0; m < count; ++m) {
-    weighted_[to] = plan_.element_weight[m] * elements[from];
+    weighted_[to] = plan_.element_weight[m] * at_elements_[from];
     if (++from == length) from = 0;
     if (++to == length) to = 0;
   }
-  plan_.to_period.run(weighted_.data(), samples.data() + guards_before);
+  plan_.elements_to_field.run(weighted_.data(), samples.data() + guards_before);
   repeat_ends(samples);
 }
 

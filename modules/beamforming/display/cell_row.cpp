@@ -39,6 +39,7 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
       lags_(plan.period),
       power_(plan.period + guards_before + guards_behind),
       elements_(plan.period),
+      at_elements_(plan.period),
       weighted_(plan.period),
       energy_((plan.broad + 1) * kernels::row_length(plan.subranges)),
       alike_(plan.broad + 1),
@@ -53,8 +54,7 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
     side.looks.resize(row.beams.broad_used.size());
     for (auto& field : side.field) field.resize(plan.period + guards_before + guards_behind);
   }
-  for (auto* by_part : {&nodes_, &power_at_})
-    for (auto& nodes : *by_part) nodes.resize(plan.period);
+  for (std::size_t q = 0; q < field_parts; ++q) nodes_[q].resize(plan.period), power_at_[q].resize(plan.period);
   for (auto& intensity : even_.intensity) intensity.resize(beams);
   for (auto* numbers : {&even_.looks, &even_.mean, &even_.strong, &drawn_}) numbers->resize(beams);
   if (row.labelled) labels_ = std::make_unique<LabelRow>(plan, lists, *row.labelled);
@@ -226,7 +226,7 @@ void CellRow::draw(Side& side) {
     even_.looks[b] = looks_at(beams_.broad_of[b], side.looks);
     even_.mean[b] = side.mean[b], even_.strong[b] = 0;
     for (std::size_t q = 0; q < field_parts; ++q)
-      even_.intensity[q][b] = std::norm(beams_.in_field[b].of(side.field[q].data()));
+      even_.intensity[q][b] = static_cast<double>(std::norm(beams_.in_field[b].of(side.field[q].data())));
     if (side.groups > 0) add_groups(b, side);
   }
   kernels::EvenGround ground{{}, {}, even_.looks.data(), even_.mean.data(), even_.strong.data()};
@@ -241,11 +241,11 @@ void CellRow::add_groups(std::size_t beam, Side& side) {
   std::size_t taken = 0;
   for (std::size_t k = 0; k < side.groups; ++k) {
     const BetweenFields& position = beams_.in_field[beam];
-    Complex s = position.of(side.strong_field[k].data());
+    Complex s = Complex(position.of(side.strong_field[k].data()));
     // A group interferes with one look of the even ground, if it is not far weaker.
     if (std::norm(s) > least_interference * mean / looks && static_cast<double>(taken + 1) < looks) {
       const std::size_t q = taken++ % field_parts;
-      s += std::sqrt(mean / (looks * side.power[q][beam])) * position.of(side.field[q].data());
+      s += std::sqrt(mean / (looks * side.power[q][beam])) * Complex(position.of(side.field[q].data()));
     }
     strong += std::norm(s);  // (E184)
   }

@@ -80,6 +80,7 @@ class CellRow {
 
  private:
   using Complex = std::complex<double>;
+  using Field = std::vector<std::complex<float>>;
 
   /// An echo in a cell, with the part of its energy there.
   struct Piece {
@@ -95,9 +96,9 @@ class CellRow {
     double noise = 0;                 ///< power of the noise in the fields of the beams [Pa^2]
     std::vector<double> mean;         ///< expected intensity of each beam [Pa^2]
     std::vector<double> looks;        ///< number of looks at each broad node in use (E182)
-    std::array<std::vector<Complex>, field_parts> field;  ///< sums over echoes at a period of u, with guards (E183)
-    std::array<std::vector<double>, field_parts> power;   ///< their expected power in each beam [Pa^2]
-    std::vector<std::vector<Complex>> strong_field;       ///< field of the strong echoes, by groups that interfere
+    std::array<Field, field_parts> field;                ///< sums over echoes at a period of u, with guards (E183)
+    std::array<std::vector<double>, field_parts> power;  ///< their expected power in each beam [Pa^2]
+    std::vector<Field> strong_field;                     ///< field of the strong echoes, by groups that interfere
     std::size_t groups = 0;
   };
 
@@ -126,17 +127,17 @@ class CellRow {
   void label(std::size_t cell, Side& side);
   void partition_strong(Side& side);
   void sum_strong(Side& side);
-  void add_strong(const Piece& piece, std::vector<Complex>& elements, std::vector<double>& mean) const;
+  void add_strong(const Piece& piece, std::vector<double>& mean);
   void sum_fields(std::size_t cell, std::size_t s);
   void sum_powers(std::size_t sides);
   /// Lists the energies of even ground in a cell by broad nodes, over `unit` [Pa^2].
   void list_energies(std::size_t cell, const Side& side, double unit);
   void count_looks(std::size_t cell, Side& side);
-  /// Adds noise of a power [Pa^2] in the beams to the pressures of field q at the elements.
+  /// Adds noise of a power [Pa^2] in the beams to the pressures of field q in at_elements_.
   void add_noise(std::size_t cell, std::size_t q, double noise);
   void add_noise_of(std::size_t cell, std::size_t q, double amplitude);
-  /// Turns pressures at the elements, from first_element on, into samples of their field.
-  void form_period(const std::vector<Complex>& elements, std::vector<Complex>& samples);
+  /// Turns pressures in at_elements_, from first_element on, into samples of their field.
+  void form_field(Field& samples);
   void draw(Side& side);
   void add_groups(std::size_t beam, Side& side);
 
@@ -152,10 +153,11 @@ class CellRow {
       all_samples_;                                         ///< energies of cells over u, and those that beams receive
   std::array<std::vector<Complex>, field_parts> power_at_;  ///< powers of the fields by nodes, likewise
   std::vector<Complex> lags_, power_;                       ///< those of one part over a period of u
-  std::vector<Complex> elements_, weighted_;                ///< pressures at elements; the same weighted, 0 elsewhere
-  std::array<std::vector<Complex>, field_parts> nodes_;
-  std::vector<float> energy_, alike_;  ///< energies of broad nodes (kernels::CellEnergies)
-  std::vector<float> whole_;           ///< the same over all ranges; empty where no grating lobe is heard
+  std::vector<Complex> elements_;                           ///< spectrum of the powers of one part
+  Field at_elements_, weighted_;                            ///< pressures at elements; the same weighted, 0 elsewhere
+  std::array<Field, field_parts> nodes_;                    ///< pressures of echoes by nodes
+  std::vector<float> energy_, alike_;                       ///< energies of broad nodes (kernels::CellEnergies)
+  std::vector<float> whole_;  ///< the same over all ranges; empty where no grating lobe is heard
   std::vector<kernels::RangedEnergy> ranged_;
   std::vector<std::uint64_t> noise_id_;
   std::vector<double> noise_re_, noise_im_;

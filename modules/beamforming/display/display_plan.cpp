@@ -12,6 +12,8 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t nodes_per_element = 4;
+constexpr std::size_t nodes_between = 4;    // about a beam, from which its level is interpolated
+constexpr std::size_t nodes_fading = 16;    // beyond the farthest that a beam hears
 constexpr std::size_t blocks_of_range = 4;  // with kernels of their own, where absorption changes the spectrum
 constexpr double least_beside = 1e-12;
 constexpr double least_spread = 1e-3;  // energy heard in other cells from which on it counts; an echo in a main lobe: 1
@@ -44,10 +46,10 @@ double node_width_of(const SonarHead& head, double wavelength) {
 using RangeSpread = std::array<std::vector<double>, 3>;
 RangeSpread spread_of(const LineArray& array, const DisplayPlan& plan) {
   RangeSpread spread;
-  for (auto& part : spread) part.assign(plan.nodes, 0);
+  for (auto& part : spread) part.assign(plan.all_length / 2, 0);
   const std::size_t count = array.elements();
   const double squares = std::inner_product(array.shading.begin(), array.shading.end(), array.shading.begin(), 0.0);
-  for (std::size_t k = 0; k < plan.nodes; ++k)
+  for (std::size_t k = 0; k < spread[0].size(); ++k)
     for (std::size_t m = 0; m < count; ++m) {
       const double part = array.shading[m] * array.shading[m] / squares;
       const double way = 0.5 * array.spacing * element_position(m, count) * static_cast<double>(k) * plan.node_width;
@@ -72,7 +74,7 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium, double sam
       broad(nodes / 2 + 1),
       node_width(node_width_of(head, wavelength_of(head, medium))),
       beam_width(head.fan.beam_width),
-      all_length(fft_length(2 * nodes + 4)),
+      all_length(fft_length(2 * (nodes_apart(head.fan) + nodes_fading))),
       half_positions(head.array.elements() % 2 == 0),
       response(head.array, wavelength_of(head, medium)),
       pulse(head.pulse, medium, head.gate),
@@ -83,7 +85,9 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium, double sam
       to_elements({period, 1, 1, 0, false}, FFTW_FORWARD),
       to_period({period, 1, 1, 0, false}, FFTW_BACKWARD),
       to_all({all_length, 1, 1, 0, false}, FFTW_FORWARD),
-      from_all({all_length, 1, 1, 0, false}, FFTW_BACKWARD) {
+      from_all({all_length, 1, 1, 0, false}, FFTW_BACKWARD),
+      field_to_elements({period, 1, 1, 0, false}, FFTW_FORWARD),
+      elements_to_field({period, 1, 1, 0, false}, FFTW_BACKWARD) {
   fill_elements(head);
   first_element = (period - head.array.elements() / 2) % period;
   if (half_positions)
@@ -104,7 +108,7 @@ void DisplayPlan::fill_elements(const SonarHead& head) {
   const std::vector<double> pairs = lag_sums(head.array);
   for (std::size_t m = 0; m < w.size(); ++m) {
     const double place = static_cast<double>(m), frequency = (place - static_cast<double>(w.size() / 2)) / in_period;
-    element_weight.push_back(w[m] / n / of_fields().transform(frequency));
+    element_weight.push_back(static_cast<float>(w[m] / n / of_fields().transform(frequency)));
     lag.push_back(pairs[m] / (n * n));  // (E65)
     lag_weight.push_back(lag[m] / of_powers().transform(place / in_period));
   }
@@ -117,7 +121,7 @@ BeamPositions DisplayPlan::positions_of(const BeamFan& fan) const {
     const double node = (u + 1) / node_width - 0.5;  // centres of nodes are whole numbers
     at.in_all.push_back(of_means().at(node + 1));
     const double turns = node / static_cast<double>(period), within = turns - std::floor(turns);
-    at.in_field.push_back(of_fields().at(within * static_cast<double>(period)));
+    at.in_field.push_back(of_fields().at<float>(within * static_cast<double>(period)));
     at.in_power.push_back(of_powers().at(within * static_cast<double>(period)));
     at.broad_of.push_back(std::clamp(0.5 * (node - 0.5), 0.0, static_cast<double>(broad - 1)) / 2);
   }
@@ -140,6 +144,10 @@ BeamPositions DisplayPlan::positions_of(const BeamFan& fan) const {
   return at;
 }
 
+std::size_t DisplayPlan::nodes_apart(const BeamFan& fan) const {
+  return std::min(nodes, static_cast<std::size_t>(std::ceil(farthest_of(fan) / node_width)));
+}
+
 double DisplayPlan::response_at(double offset) const {
   const double lobes = node_width * static_cast<double>(period);
   return response.intensity(std::min(2.0, std::abs(offset - lobes * std::nearbyint(offset / lobes))));
@@ -154,7 +162,7 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
   const Absorption& a = medium.absorption;
   const std::size_t blocks = a.a1 != 0 || a.a2 != 0 ? std::min(blocks_of_range, cells) : 1;
   const RangeSpread spread = spread_of(head.array, *this);
-  const std::size_t farthest = std::min(nodes - 1, static_cast<std::size_t>(farthest_of(head.fan) / node_width));
+  const std::size_t farthest = nodes_apart(head.fan);
   bool spreads = false;
   const double reach = main_lobe_reach * head.fan.beam_width, grating = nearest_grating(head);
   double outside = 0, positions = 0;
@@ -163,28 +171,34 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
     const auto spectrum = pulse.spectrum(first_range + middle * cell_length, count);
     if (block == blocks / 2)
       for (const SpectrumNode& node : spectrum) band_.push_back({node.frequency / fc, node.weight});
-    std::vector<double> of_band(nodes, 0);
-    for (std::size_t k = 0; k < nodes; ++k) {
+    std::vector<double> of_band(all_length / 2, 0);
+    for (std::size_t k = 0; k < of_band.size(); ++k) {
       for (const SpectrumNode& node : spectrum)
         of_band[k] += node.weight * response_at(static_cast<double>(k) * node_width * (1 + node.frequency / fc));
       const double distance = static_cast<double>(k) * node_width;
-      if (block == 0 && distance > reach && (distance < grating || grating < reach))
+      if (block == 0 && k < nodes && distance > reach && (distance < grating || grating < reach))
         outside += of_band[k], positions += 1;
     }
     for (std::size_t k = 0; block == 0 && k <= farthest; ++k)
       spreads = spreads || of_band[k] * (1 - spread[0][k]) > least_spread;
-    kernel.push_back(kernel_from(of_band, spreads ? spread[0] : std::vector<double>(nodes, 1)));  // (E181)
+    kernel.push_back(
+        kernel_from(of_band, spreads ? spread[0] : std::vector<double>(of_band.size(), 1), farthest));  // (E181)
     if (!spreads) continue;
-    for (std::size_t k = 0; k < 2; ++k) kernel_beside[k].push_back(kernel_from(of_band, spread[k + 1]));  // (E188)
+    for (std::size_t k = 0; k < 2; ++k)
+      kernel_beside[k].push_back(kernel_from(of_band, spread[k + 1], farthest));  // (E188)
   }
   beside_lobe = positions > 0 ? std::max(outside / positions, least_beside) : least_beside;
 }
 
-std::vector<double> DisplayPlan::kernel_from(const std::vector<double>& pattern,
-                                             const std::vector<double>& share) const {
+std::vector<double> DisplayPlan::kernel_from(const std::vector<double>& pattern, const std::vector<double>& share,
+                                             std::size_t farthest) const {
   std::vector<std::complex<double>> of_band(all_length, 0), transformed(all_length);
-  for (std::size_t k = 0; k < nodes; ++k) {
-    of_band[k] = pattern[k] * share[k];
+  // Beyond what beams hear, the pattern fades out: an end of it would ring as far as the beams.
+  const double first = static_cast<double>(farthest + nodes_between),
+               fading = static_cast<double>(all_length / 2) - first;
+  for (std::size_t k = 0; k < pattern.size(); ++k) {
+    const double way = std::max(0.0, static_cast<double>(k) - first) / fading;
+    of_band[k] = pattern[k] * share[k] * std::pow(std::cos(0.5 * pi * way), 2);
     if (k > 0) of_band[all_length - k] = of_band[k];
   }
   to_all.run(of_band.data(), transformed.data());

@@ -24,8 +24,9 @@ inline constexpr double reach_of_pulse = 4;
 using kernels::field_parts;
 
 /// Positions among samples of fields, and of powers. A period has four times as many samples as fields vary with, and
-/// twice as many as powers, whose weak parts count: errors are below 1e-3 and 1e-6 of the root of the mean square.
-using BetweenFields = Between<4>;
+/// twice as many as powers, whose weak parts count: errors are below 1e-3 and 1e-6 of the root of the mean square. So
+/// single precision is enough for fields.
+using BetweenFields = Between<4, float>;
 using BetweenPowers = Between<8>;
 
 /// Where the beams of a row stand among the nodes and samples of a DisplayPlan.
@@ -71,7 +72,7 @@ struct DisplayPlan {
 
   std::vector<double> lag;                 ///< R_m of E65 by lag, m = 0 .. N - 1, divided by N^2
   std::vector<double> lag_weight;          ///< the same, for samples that are interpolated (E186)
-  std::vector<double> element_weight;      ///< w_m / N, for samples that are interpolated (E186)
+  std::vector<float> element_weight;       ///< w_m / N, for samples that are interpolated (E186)
   std::size_t first_element;               ///< index of element 0 in a transformed period
   bool half_positions;                     ///< elements stand at half-integers
   std::vector<std::complex<double>> turn;  ///< factor of the pressure of an echo at each node, if half_positions
@@ -107,6 +108,7 @@ struct DisplayPlan {
   std::size_t cells;
 
   Fft<double> to_elements, to_period, to_all, from_all;  ///< transform one array into another
+  Fft<float> field_to_elements, elements_to_field;       ///< the same of fields
 
   /// Returns the positions of the beams of a fan of one elevation.
   BeamPositions positions_of(const BeamFan& fan) const;
@@ -116,12 +118,16 @@ struct DisplayPlan {
   double response_at(double offset) const;  // of any size
   /// Returns how far in u an echo may be from a beam.
   double farthest_of(const BeamFan& fan) const;
+  /// Returns the same in nodes.
+  std::size_t nodes_apart(const BeamFan& fan) const;
   /// Returns the least distance in u at which some part of the band has a grating lobe.
   double nearest_grating(const SonarHead& head) const;
   void fill_elements(const SonarHead& head);
   void fill_kernels(const SonarHead& head, const Medium& medium);
-  /// Returns the spectrum of a pattern (by nodes apart) times `share` of it, as samples that are interpolated.
-  std::vector<double> kernel_from(const std::vector<double>& pattern, const std::vector<double>& share) const;
+  /// Returns the spectrum of a pattern (by nodes apart) times `share` of it, as samples that are interpolated. Echoes are
+  /// at most `farthest` nodes from a beam.
+  std::vector<double> kernel_from(const std::vector<double>& pattern, const std::vector<double>& share,
+                                  std::size_t farthest) const;
   void fill_lobe(const SonarHead& head);
   void fill_looks();
   void fill_gratings(const SonarHead& head);

@@ -48,19 +48,18 @@ void CellRow::sum_strong(Side& side) {
   // Echoes within a pulse of each other add up as pressures, others as intensities.
   std::stable_sort(side.strong.begin(), side.strong.end(),
                    [](const Piece& a, const Piece& b) { return a.echo->range < b.echo->range; });
-  std::vector<Complex>& elements = nodes_[0];
   for (auto first = side.strong.begin(); first != side.strong.end();) {
     const double last = first->echo->range + 2 * plan_.pulse.half_length();
-    std::fill(elements.begin(), elements.end(), Complex(0));
-    for (; first != side.strong.end() && first->echo->range < last; ++first) add_strong(*first, elements, side.mean);
+    std::fill(at_elements_.begin(), at_elements_.end(), 0);
+    for (; first != side.strong.end() && first->echo->range < last; ++first) add_strong(*first, side.mean);
     if (side.groups == side.strong_field.size())
       side.strong_field.emplace_back(plan_.period + guards_before + guards_behind);
-    form_period(elements, side.strong_field[side.groups++]);
+    form_field(side.strong_field[side.groups++]);
   }
   for (double& mean : side.mean) mean = std::max(mean, row_.element_noise * plan_.lag[0]);
 }
 
-void CellRow::add_strong(const Piece& piece, std::vector<Complex>& elements, std::vector<double>& mean) const {
+void CellRow::add_strong(const Piece& piece, std::vector<double>& mean) {
   const CellEcho& echo = *piece.echo;
   const double step = 2 * pi / (plan_.node_width * static_cast<double>(plan_.period));
   const double u = echo.u, away = u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
@@ -68,7 +67,8 @@ void CellRow::add_strong(const Piece& piece, std::vector<Complex>& elements, std
   const Complex turn = std::polar(1.0, -step * away);
   Complex at = static_cast<double>(piece.sign * std::sqrt(piece.energy)) * Complex(echo.pressure) *
                std::polar(1.0, -step * away * element_position(0, count));
-  for (std::size_t m = 0; m < count; ++m, at *= turn) elements[(plan_.first_element + m) % plan_.period] += at;
+  for (std::size_t m = 0; m < count; ++m, at *= turn)
+    at_elements_[(plan_.first_element + m) % plan_.period] += std::complex<float>(at);
   // The mean of even ground excludes it.
   for (std::size_t b = 0; b < mean.size(); ++b) mean[b] -= heard_of(piece, b);
 }
