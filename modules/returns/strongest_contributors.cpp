@@ -103,6 +103,8 @@ class SlabSearch final : public EchoSink {
         bins_(static_cast<double>(gate.bins())),
         first_(first),
         end_(std::min(end, gate.bins())),
+        nearest_(gate.min_range + (static_cast<double>(first_) - beside) * gate.bin_size),
+        farthest_(gate.min_range + (static_cast<double>(end_) + beside) * gate.bin_size),
         scene_(scene),
         found_(found),
         begin_(end_ - first + 1, 0) {
@@ -139,6 +141,7 @@ class SlabSearch final : public EchoSink {
   bool chooses_patches() const override { return true; }
   void take(const Scatterers& s, const Echoes& echoes) override {
     for (std::size_t i = 0; i < echoes.size(); ++i) {
+      if (!(s.range[i] >= nearest_ && s.range[i] <= farthest_)) continue;
       // The first and the last bin include echoes up to one bin outside the gate.
       const double n = std::floor((s.range[i] - gate_.min_range) / gate_.bin_size);
       if (!(n >= -1 && n <= bins_)) continue;
@@ -186,10 +189,13 @@ class SlabSearch final : public EchoSink {
     }
   }
 
+  static constexpr double beside = 3;  // bins that hold all echoes near the slab, whatever is rounded
+
   const std::vector<BeamRegion>& regions_;
   const RangeGate& gate_;
   double bins_;
   std::size_t first_, end_;
+  double nearest_, farthest_;  // range of echoes [m]
   double widest_ = 0;
   const SceneCloud* scene_;
   std::vector<StrongestContributor>& found_;
