@@ -34,7 +34,8 @@ struct Gate {
     const bool node = is_node(scene, i);
     const double disc = (node ? std::min(node_footprint, footprint) : footprint) * spacing;
     const double radius = scene.facet.empty() ? disc : reach_of(scene.facet[i], scene.point[i]);
-    if (!sector.holds(p, hiding_reach * radius)) return;
+    const bool in_sector = sector.holds(p);
+    if (!in_sector && !sector.holds(p, hiding_reach * radius)) return;
 
     const double r = std::sqrt(r2);
     const Vector3d normal = head.normal_of(i);
@@ -51,7 +52,7 @@ struct Gate {
     s.unevenness = scene.unevenness.empty() ? s.spacing : scene.unevenness[i];
     s.noise = scene.noise.empty() ? 0 : scene.noise[i];
     s.surfel = static_cast<std::uint32_t>(i);
-    s.in_gate = r >= range.min_range && sector.holds(p);
+    s.in_gate = r >= range.min_range && in_sector;
     s.facing = scene.oriented(i) ? along < 0 : along != 0;
     inside.push_back(s);
     if (!scene.facet.empty()) inside.facet.push_back(gated(scene.facet[i], spacing));

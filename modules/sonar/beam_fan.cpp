@@ -153,21 +153,4 @@ SectorBounds::SectorBounds(const Sector& sector)
       top_(std::sin(sector.max_elevation), cos_elevation(sector.max_elevation)),
       bottom_(std::sin(sector.min_elevation), cos_elevation(sector.min_elevation)) {}
 
-bool SectorBounds::in_elevations(const Vector3d& p, double margin) const {
-  const double across = std::sqrt(p.x() * p.x() + p.y() * p.y());
-  return p.z() * top_.y() - across * top_.x() <= margin && across * bottom_.x() - p.z() * bottom_.y() <= margin;
-}
-
-bool SectorBounds::in_cones(const Vector3d& p, double margin) const {
-  if (whole_circle_) return true;
-  // Turn the point about the array's axis into the plane z = 0, ahead or astern, where a cone is a line.
-  const double about = std::sqrt(p.x() * p.x() + p.z() * p.z());
-  const auto inside = [&](double x) {
-    const Eigen::Vector2d q(x, p.y());
-    const bool from_port = port_.dot(q) >= -margin, from_starboard = starboard_.dot(q) >= -margin;
-    return convex_ ? from_port && from_starboard : from_port || from_starboard;
-  };
-  return (p.x() >= -margin && inside(about)) || (p.x() <= margin && inside(-about));
-}
-
 }  // namespace insonify

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -89,11 +90,25 @@ class SectorBounds {
     return in_elevations(p, margin) && in_cones(p, margin);
   }
   /// Returns the part of holds() that depends on the elevations of the sector.
-  bool in_elevations(const Eigen::Vector3d& p, double margin = 0) const;
+  bool in_elevations(const Eigen::Vector3d& p, double margin = 0) const {
+    const double across = std::sqrt(p.x() * p.x() + p.y() * p.y());
+    return p.z() * top_.y() - across * top_.x() <= margin && across * bottom_.x() - p.z() * bottom_.y() <= margin;
+  }
   /// Returns the part of holds() that depends on the cones of the sector.
-  bool in_cones(const Eigen::Vector3d& p, double margin = 0) const;
+  bool in_cones(const Eigen::Vector3d& p, double margin = 0) const {
+    if (whole_circle_) return true;
+    // Turn the point about the array's axis into the plane z = 0, ahead or astern, where a cone is a line.
+    const double about = std::sqrt(p.x() * p.x() + p.z() * p.z());
+    return (p.x() >= -margin && in_plane(about, p.y(), margin)) || (p.x() <= margin && in_plane(-about, p.y(), margin));
+  }
 
  private:
+  bool in_plane(double x, double y, double margin) const {
+    const bool from_port = port_.x() * x + port_.y() * y >= -margin;
+    const bool from_starboard = starboard_.x() * x + starboard_.y() * y >= -margin;
+    return convex_ ? from_port && from_starboard : from_port || from_starboard;
+  }
+
   bool whole_circle_, convex_;
   Eigen::Vector2d port_, starboard_;  // inward normals of the edges, in the half-planes through the array's axis
   Eigen::Vector2d top_, bottom_;      // sine and cosine of the edges in elevation
