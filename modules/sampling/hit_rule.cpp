@@ -71,6 +71,27 @@ bool passes_beside(const GatedSurfels& surfels, std::span<const std::uint32_t> c
   return true;
 }
 
+// Returns which of 32 equal sectors holds a direction, by its angle.
+int sector_by_angle(float x, float y) {
+  const float turn = std::atan2(y, x);
+  return std::clamp(static_cast<int>((turn / static_cast<float>(pi) + 1) * 16), 0, 31);
+}
+
+// Returns the same from the slopes of the edges, and by the angle only next to an edge.
+int sector_of(float x, float y) {
+  constexpr float slopes[] = {0, 0.19891237F, 0.41421356F, 0.66817864F, 1}, next_to = 1e-4F;
+  const float across = std::abs(x), along = std::abs(y), high = std::max(across, along), low = std::min(across, along);
+  int eighth = -1, clear = high > 0;
+  for (const float slope : slopes) {
+    const float beyond = low - slope * high;
+    eighth += beyond > 0;
+    clear &= std::abs(beyond) > next_to * high;
+  }
+  if (clear == 0) return sector_by_angle(x, y);
+  const int of_quarter = along > across ? 7 - eighth : eighth, of_half = x < 0 ? 15 - of_quarter : of_quarter;
+  return y < 0 ? 15 - of_half : 16 + of_half;
+}
+
 // True if the direction passes through the triangle; depth: its component along the normal, above 0. The corners are
 // taken from where it crosses the plane, so that nothing is the difference of large numbers.
 bool passes(const GatedFacet& f, const Eigen::Vector3f& direction, float depth) {
@@ -121,9 +142,7 @@ Cover cover(const GatedSurfel& front, const LineOfSight& line) {
   const Eigen::Vector3f slope = front.away - line.along * cosine;
   const float steepness = slope.squaredNorm();
   if (steepness > 1e-8f) across += slope * ((1 / cosine - 1) * across.dot(slope) / steepness);
-  const float turn = std::atan2(line.up.dot(across), line.right.dot(across));
-  const int sector = static_cast<int>((turn / static_cast<float>(pi) + 1) * 16);
-  return Cover{1} << std::clamp(sector, 0, 31);
+  return Cover{1} << sector_of(line.right.dot(across), line.up.dot(across));
 }
 
 float squared_chord_of(float sine) { return sine < 1 ? 2 - 2 * std::sqrt(1 - sine * sine) : 4.0f; }
