@@ -9,6 +9,7 @@
 #include <complex>
 
 #include "core/units.hpp"
+#include "simulate/energy_loops_internal.hpp"
 #include "sonar/pulse_kind.hpp"
 #include "sonar/receive_array.hpp"
 
@@ -17,19 +18,30 @@ namespace {
 
 using complex = std::complex<double>;
 
+constexpr std::size_t lanes = kernels::energy_lanes;  // beams or entries that are treated side by side
+
 /// Products R_m sum_b exp(-i k d m u_b), m = 0 .. N-1, those of m > 0 twice.
-std::vector<complex> beam_terms(const SonarHead& head, double step) {
-  const std::vector<double> pairs = lag_sums(head.array);
-  const std::size_t n = pairs.size();
-  std::vector<complex> terms(n, 0);
-  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
-    const complex turn = std::polar(1.0, -step * std::cos(head.fan.elevation[b]) * std::sin(head.fan.azimuth[b]));
-    complex phase = 1;
-    for (std::size_t m = 0; m < n; ++m, phase *= turn) terms[m] += phase;
+struct BeamTerms {
+  std::vector<double> re, im;
+
+  BeamTerms(const SonarHead& head, double step) {
+    const std::vector<double> pairs = lag_sums(head.array);
+    const std::size_t n = pairs.size(), beams = head.fan.beams();
+    re.assign(n, 0), im.assign(n, 0);
+    for (std::size_t first = 0; first < beams; first += lanes) {
+      kernels::Turns turns{};
+      const std::size_t number = std::min(lanes, beams - first);
+      for (std::size_t l = 0; l < number; ++l) {
+        const std::size_t b = first + l;
+        const complex turn = std::polar(1.0, -step * std::cos(head.fan.elevation[b]) * std::sin(head.fan.azimuth[b]));
+        turns.re[l] = turn.real(), turns.im[l] = turn.imag();
+      }
+      kernels::add_powers(turns, number, n, re.data(), im.data());
+    }
+    for (std::size_t m = 0; m < n; ++m) scale(m, (m > 0 ? 2 : 1) * pairs[m] / static_cast<double>(n * n));
   }
-  for (std::size_t m = 0; m < n; ++m) terms[m] *= (m > 0 ? 2 : 1) * pairs[m] / static_cast<double>(n * n);
-  return terms;
-}
+  void scale(std::size_t m, double factor) { re[m] *= factor, im[m] *= factor; }
+};
 
 /// Squared responses of all rows, added up over v from -1 to 1.
 std::vector<double> sum_over_rows(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows) {
@@ -74,28 +86,20 @@ ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength, double 
 void ReceivedEnergy::add_frequency(const SonarHead& head, double step, double half_width, double share) {
   if (const auto array = receive_array(head); !array->line())
     return add_responses(*array, head.fan, 2 * pi * head.array.spacing / step, half_width, share);
-  std::vector<complex> terms = beam_terms(head, step);
+  BeamTerms terms(head, step);
   if (half_width > 0)
-    for (std::size_t m = 1; m < terms.size(); ++m) {
+    for (std::size_t m = 1; m < terms.re.size(); ++m) {
       const double x = step * half_width * static_cast<double>(m);
-      terms[m] *= std::sin(x) / x;
+      terms.scale(m, std::sin(x) / x);
     }
-  // Some entries side by side; real and imaginary parts apart, which needs no test for infinities.
-  constexpr std::size_t lanes = 8;
   for (std::size_t begin = 0; begin < table_.size(); begin += lanes) {
-    double turn[lanes][2], phase[lanes][2], sum[lanes];
+    kernels::Turns turns;
     for (std::size_t l = 0; l < lanes; ++l) {
       const double u = 2 * static_cast<double>(begin + l) / static_cast<double>(table_.size() - 1) - 1;
-      turn[l][0] = std::cos(step * u), turn[l][1] = std::sin(step * u);
-      phase[l][0] = 1, phase[l][1] = sum[l] = 0;
+      turns.re[l] = std::cos(step * u), turns.im[l] = std::sin(step * u);
     }
-    for (const complex& term : terms)
-      for (std::size_t l = 0; l < lanes; ++l) {
-        const double re = phase[l][0], im = phase[l][1];
-        sum[l] += term.real() * re - term.imag() * im;
-        phase[l][0] = re * turn[l][0] - im * turn[l][1];
-        phase[l][1] = re * turn[l][1] + im * turn[l][0];
-      }
+    double sum[lanes];
+    kernels::sum_powers(turns, terms.re.data(), terms.im.data(), terms.re.size(), sum);
     for (std::size_t l = 0; l < std::min(lanes, table_.size() - begin); ++l)
       table_[begin + l] += share * std::max(0.0, sum[l]);
   }
