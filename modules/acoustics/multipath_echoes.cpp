@@ -226,8 +226,8 @@ void append(Echoes& echoes, const Echoes& more) {
     echoes.doppler.resize(echoes.size());
     for (std::size_t i = 0; i < more.size(); ++i) echoes.doppler.push_back(more.doppler_of(i));
   }
-  for (std::size_t i = 0; i < more.size(); ++i)
-    add_echo(echoes, more.delay[i], more.u[i], more.v[i], more.amplitude[i]);
+  const auto add = [](auto& all, const auto& others) { all.insert(all.end(), others.begin(), others.end()); };
+  add(echoes.delay, more.delay), add(echoes.u, more.u), add(echoes.v, more.v), add(echoes.amplitude, more.amplitude);
 }
 
 double longest_leg(const Environment& environment, std::span<const Mirror> mirrors, const View& view,
