@@ -9,6 +9,7 @@ namespace {
 constexpr std::size_t lanes = energy_lanes;
 
 INSONIFY_ALWAYS_INLINE void turn_on(const Turns& turns, Turns& phase) {
+#pragma GCC unroll 1
   for (std::size_t l = 0; l < lanes; ++l) {
     const double re = phase.re[l], im = phase.im[l];
     phase.re[l] = re * turns.re[l] - im * turns.im[l];
@@ -42,6 +43,7 @@ INSONIFY_CLONES void sum_powers(const Turns& turns, const double* term_re, const
   Turns phase = start();
   double all[lanes] = {};
   for (std::size_t m = 0; m < count; ++m) {
+#pragma GCC unroll 1
     for (std::size_t l = 0; l < lanes; ++l) all[l] += term_re[m] * phase.re[l] - term_im[m] * phase.im[l];
     turn_on(by, phase);
   }
