@@ -12,6 +12,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t echoes_at_once = 4096, cells_at_once = 16;
+constexpr std::uint64_t aside_seed = 0xa0761d6478bd642f;  // far from seeds of other numbers
 
 /// First and last cell of an echo; the first is beyond the last if it has none.
 struct CellSpan {
@@ -29,7 +30,6 @@ class EchoMaker {
         options_(options),
         metres_per_s_(0.5 * medium.sound_speed),
         per_cell_length_(1 / plan.cell_length),
-        per_node_(1 / plan.node_width),
         pulse_(plan.pulse.half_length()) {}
 
   /// Sets the cells that echoes begin .. end - 1 are in.
@@ -45,9 +45,12 @@ class EchoMaker {
   void make(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& slot,
             UninitializedVector<CellEcho>& echoes) const {
     const std::size_t surfaces = surface_.id.size(), drawn = begin < surfaces ? std::min(end, surfaces) - begin : 0;
-    std::vector<double> re(drawn, 0), im(drawn, 0);
-    if (options_.speckle && drawn > 0)
-      random_amplitudes(options_.seed, {surface_.id.data() + begin, drawn}, re.data(), im.data());  // (E9)
+    std::vector<double> re(drawn, 0), im(drawn, 0), aside_re(drawn, 0), aside_im(drawn, 0);
+    if (options_.speckle && drawn > 0) {
+      const std::uint64_t* id = surface_.id.data() + begin;
+      random_amplitudes(options_.seed, {id, drawn}, re.data(), im.data());  // (E9)
+      kernels::draw_normals(options_.seed ^ aside_seed, id, drawn, aside_re.data(), aside_im.data());
+    }
     for (std::size_t i = begin; i < end; ++i) {
       if (slot[i] >= echoes.size()) continue;
       if (i >= surfaces) {
@@ -55,17 +58,18 @@ class EchoMaker {
         continue;
       }
       const std::size_t k = i - begin;
-      echoes[slot[i]] = of_surface(i, {re[k], im[k]});
+      echoes[slot[i]] = of_surface(i, {re[k], im[k]}, {aside_re[k], aside_im[k]});
     }
   }
 
  private:
   using Complex = std::complex<double>;
 
-  CellEcho of_surface(std::size_t i, const Complex& amplitude) const {
+  CellEcho of_surface(std::size_t i, const Complex& amplitude, const Complex& aside) const {
     CellEcho echo;
     const double in_cell = set_place(surface_.echoes, i, echo);
-    set_pressure(surface_.echoes.amplitude[i], in_cell, is_both(i) ? 0 : amplitude, echo);
+    const Complex phase = set_root(surface_.echoes.amplitude[i], in_cell, echo);
+    if (!is_both(i)) echo.pressure = product(phase, amplitude), echo.aside = product(phase, aside);
     echo.energy = static_cast<float>(in_cell * surface_.power[i]);
     if (echo.energy > 0) {
       echo.half_depth = surface_.depth[i];
@@ -78,8 +82,9 @@ class EchoMaker {
   }
   CellEcho of_target(std::size_t i) const {
     CellEcho echo;
-    set_pressure(fixed_.amplitude[i], set_place(fixed_, i, echo), 1, echo);
-    echo.energy = echo.strength;
+    const double in_cell = set_place(fixed_, i, echo);
+    echo.pressure = product(set_root(fixed_.amplitude[i], in_cell, echo), 1);
+    echo.energy = static_cast<float>(in_cell * std::norm(fixed_.amplitude[i]));
     echo.together = 0;
     set_extent(fixed_.u[i], echo);
     return echo;
@@ -90,23 +95,21 @@ class EchoMaker {
     echo.range = static_cast<float>(range), echo.u = static_cast<float>(echoes.u[i]);
     return plan_.pulse.energy(range) * per_cell_length_;
   }
-  static void set_pressure(const Complex& of, double in_cell, const Complex& amplitude, CellEcho& echo) {
+  /// Sets the root of the echo's own energy; returns its phase, 0 if it has none.
+  static Complex set_root(const Complex& of, double in_cell, CellEcho& echo) {
     const double square = std::norm(of);
-    echo.strength = static_cast<float>(in_cell * square);
-    if (!(square > 0)) return;
-    const Complex phase = of * (1 / std::sqrt(square)), a = amplitude;
-    echo.pressure = {static_cast<float>(phase.real() * a.real() - phase.imag() * a.imag()),
-                     static_cast<float>(phase.real() * a.imag() + phase.imag() * a.real())};
+    echo.root = static_cast<float>(std::sqrt(in_cell * square));
+    return square > 0 ? of * (1 / std::sqrt(square)) : 0;
+  }
+  static std::complex<float> product(const Complex& phase, const Complex& a) {
+    return {static_cast<float>(phase.real() * a.real() - phase.imag() * a.imag()),
+            static_cast<float>(phase.real() * a.imag() + phase.imag() * a.real())};
   }
   void set_extent(double u, CellEcho& echo) const {
     const auto width = static_cast<double>(echo.half_width), depth = static_cast<double>(echo.half_depth);
     echo.reach = static_cast<float>(std::sqrt(depth * depth + pulse_ * pulse_));
-    echo.node = node_of(u);
-    echo.port = width > 0 ? node_of(u + width) / 2 : echo.node / 2;
-    echo.starboard = width > 0 ? node_of(u - width) / 2 : echo.node / 2;
-  }
-  std::uint32_t node_of(double u) const {
-    return static_cast<std::uint32_t>(std::clamp((u + 1) * per_node_, 0.0, static_cast<double>(plan_.nodes - 1)));
+    echo.port = static_cast<std::uint32_t>(plan_.node_of(u + width) / 2);
+    echo.starboard = static_cast<std::uint32_t>(plan_.node_of(u - width) / 2);
   }
 
   bool is_both(std::size_t i) const { return i < surface_.id.size() && surface_.id[i] == surface_.of_both; }
@@ -132,7 +135,7 @@ class EchoMaker {
   const SurfaceEchoes& surface_;
   const Echoes& fixed_;
   const CellOptions& options_;
-  double metres_per_s_, per_cell_length_, per_node_, pulse_;
+  double metres_per_s_, per_cell_length_, pulse_;
 };
 
 /// Returns the position of each echo among those that are in a cell, by their first cells: what a cell holds stands side by
@@ -154,7 +157,6 @@ std::vector<std::uint32_t> slots_by_cell(const std::vector<CellSpan>& cells, std
 
 /// Sets the parts of the energies in cells begin .. end - 1.
 void set_parts(const DisplayPlan& plan, std::size_t begin, std::size_t end, EchoesByCell& lists) {
-  const double half = plan.pulse.half_length(), per_pulse = 1 / (2 * half);
   for (std::size_t cell = begin; cell < end; ++cell) {
     const double first = plan.first_range + static_cast<double>(cell) * plan.cell_length,
                  last = first + plan.cell_length, per_middle = 2 / (first + last);
@@ -167,8 +169,6 @@ void set_parts(const DisplayPlan& plan, std::size_t begin, std::size_t end, Echo
       const double piece =
           echo.energy > 0 ? plan.edges.before(far, range, depth) - plan.edges.before(near, range, depth) : 0;  // (E227)
       in.energy = static_cast<float>(static_cast<double>(echo.energy) * (weight * piece));
-      in.field = static_cast<float>(static_cast<double>(echo.strength) *
-                                    (weight * overlap(range - half, range + half, first, last) * per_pulse));
     }
   }
 }

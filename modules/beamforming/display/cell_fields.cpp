@@ -22,21 +22,30 @@ std::uint64_t noise_seed(const CellOptions& options) {
 void CellRow::sum_fields(std::size_t cell, std::size_t s) {
   Side& side = side_[s];
   for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), 0);
-  const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
-  const double per_length = static_cast<double>(field_parts) / plan_.cell_length;
+  const double per_part = static_cast<double>(field_parts) / plan_.cell_length,
+               first = (plan_.first_range + static_cast<double>(cell) * plan_.cell_length) * per_part - 0.5;
+  // Parts of long cells that meet at an edge have amplitudes of their own, as parts of one cell that meet.
+  const std::size_t odd = plan_.noise_of_next > 0 ? 0 : cell % 2;
   for (const Piece& piece : side.even) {
     const CellEcho& echo = *piece.echo;
-    if (!(piece.field > 0)) continue;
-    std::size_t position = echo.node;
+    // In two parts, as a box of their length.
+    const double place = static_cast<double>(echo.range) * per_part - first;
+    if (!(echo.root > 0 && place > 0 && place < static_cast<double>(field_parts + 1))) continue;
+    const auto far = static_cast<std::size_t>(place);
+    const float share = static_cast<float>(place) - static_cast<float>(far), root = piece.response * echo.root;
+    const std::size_t node = plan_.node_of(echo.u);
+    std::size_t position = node;
     while (position >= plan_.period) position -= plan_.period;
-    Complex turn = static_cast<double>(piece.sign * std::sqrt(piece.field));
-    if (plan_.half_positions) turn = turn.real() * plan_.turn[echo.node];
-    const double within = std::max(0.0, (static_cast<double>(echo.range) - first) * per_length);
-    const std::size_t q = std::min(static_cast<std::size_t>(within), field_parts - 1);
-    const double re = echo.pressure.real(), im = echo.pressure.imag();
-    nodes_[q][position] += std::complex<float>{static_cast<float>(turn.real() * re - turn.imag() * im),
-                                               static_cast<float>(turn.real() * im + turn.imag() * re)};
-    reinterpret_cast<double*>(&power_at_[q][position])[s] += piece.field;
+    const std::complex<float> turn = plan_.half_positions ? plan_.turn[node] : 1;
+    const auto add = [&](std::size_t q, float part) {
+      const std::complex<float>& of = q % 2 == odd ? echo.pressure : echo.aside;
+      const float a = root * std::sqrt(part), re = a * of.real(), im = a * of.imag();
+      nodes_[q][position] +=
+          std::complex<float>{turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re};
+      reinterpret_cast<double*>(&power_at_[q][position])[s] += static_cast<double>(a * a);
+    };
+    if (far > 0) add(far - 1, 1 - share);
+    if (far < field_parts) add(far, share);
   }
   for (std::size_t q = 0; q < field_parts; ++q) {
     plan_.field_to_elements.run(nodes_[q].data(), at_elements_.data());

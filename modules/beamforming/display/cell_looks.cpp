@@ -20,7 +20,6 @@ void CellRow::list_energies(std::size_t cell, const Side& side, double unit) {
              ranges_per_metre = static_cast<float>(per_length);
   for (const Piece& piece : side.even) {
     const CellEcho& echo = *piece.echo;
-    if (piece.energy == 0) continue;
     const float position = static_cast<float>((echo.range - first) * per_length), reach = echo.reach * ranges_per_metre;
     const float low = std::max(0.f, position - reach), high = std::min(length, position + reach);
     if (!(high > low)) continue;

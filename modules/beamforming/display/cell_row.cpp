@@ -31,7 +31,6 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
       row_(row),
       beams_(row.beams),
       options_(options),
-      nodes_per_u_(1 / plan.node_width),
       all_(plan.all_length),
       spectrum_(plan.all_length),
       beside_(plan.all_length),
@@ -103,9 +102,8 @@ void CellRow::list_pieces(std::size_t cell, Side& side) {
     const double response = row_.response.empty() ? 1 : row_.response[in.echo];
     if (response == 0) continue;
     const auto square = static_cast<float>(response * response);
-    const float energy = square * in.energy, field = square * in.field;
-    if (energy > 0 || field > 0)
-      side.even.push_back({&lists_.echoes[in.echo], energy, field, response < 0 ? -1.f : 1.f});
+    const float energy = square * in.energy;
+    if (energy > 0) side.even.push_back({&lists_.echoes[in.echo], energy, static_cast<float>(response)});
     side.energy += static_cast<double>(energy);
   }
 }
@@ -128,7 +126,7 @@ void CellRow::label(std::size_t cell, Side& side) {
 
 void CellRow::add_surface(const CellEcho& echo, double energy, const CellEdges::Edge& near, const CellEdges::Edge& far,
                           double* at) const {
-  const double nodes_per_metre = static_cast<double>(std::abs(echo.slope)) * nodes_per_u_;
+  const double nodes_per_metre = static_cast<double>(std::abs(echo.slope)) * plan_.nodes_per_u;
   if (static_cast<double>(echo.half_depth) * nodes_per_metre < least_tilt)
     return add_box(echo.u, echo.half_width, energy, at);
   // Parts of a tilted surface have directions of their own (E189).
@@ -143,8 +141,8 @@ void CellRow::add_surface(const CellEcho& echo, double energy, const CellEdges::
 }
 
 void CellRow::add_box(double u, double half_width, double energy, double* at) const {
-  const double half = std::max(half_width * nodes_per_u_, 0.5);
-  const double position = std::clamp((u + 1) * nodes_per_u_, 0.0, static_cast<double>(plan_.nodes));
+  const double half = std::max(half_width * plan_.nodes_per_u, 0.5);
+  const double position = std::clamp((u + 1) * plan_.nodes_per_u, 0.0, static_cast<double>(plan_.nodes));
   const double low = std::max(position - half, -0.5) + 1,
                high = std::min(position + half, static_cast<double>(plan_.nodes) + 0.5) + 1;
   const double density = energy / (high - low);

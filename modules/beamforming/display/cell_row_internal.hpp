@@ -25,11 +25,11 @@ struct CellEcho {
   float half_width = 0;                   ///< in u
   float slope = 0, across = 0;            ///< change of u with range [1/m], half width at one range (E189)
   float energy = 0;                       ///< energy of its surface in a cell that holds all of it [Pa^2]
-  float strength = 0;                     ///< its own energy in such a cell [Pa^2]
+  float root = 0;                         ///< root of its own energy in such a cell [Pa]
   float together = 1;                     ///< energy of all echoes of its amplitude, which add as pressures,
                                           ///< in its own; 0: its amplitude is not random
   std::complex<float> pressure{};         ///< its phase, times the random amplitude that samples have (E9), if any
-  std::uint32_t node = 0;                 ///< node of its middle
+  std::complex<float> aside{};            ///< the same with another amplitude, for every other part of a cell (E183)
   std::uint32_t port = 0, starboard = 0;  ///< broad nodes of its ends
 };
 static_assert(sizeof(CellEcho) <= 64);
@@ -43,7 +43,6 @@ inline double overlap(double low, double high, double first, double last) {
 struct EchoInCell {
   std::uint32_t echo;
   float energy;  ///< its surface's energy there, at the peak of the responses of rows [Pa^2]
-  float field;   ///< the same of an echo from its middle [Pa^2]
 };
 
 /// The echoes of each cell: those of cell c are part[first[c]] .. part[first[c + 1] - 1].
@@ -86,8 +85,7 @@ class CellRow {
   struct Piece {
     const CellEcho* echo;
     float energy;  ///< [Pa^2]
-    float field;   ///< its energy there, were it an echo from its middle [Pa^2]
-    float sign;    ///< sign of the response: +1 or -1
+    float response;
   };
   /// One of the two cells: its echoes, and the sums over them.
   struct Side {
@@ -146,7 +144,6 @@ class CellRow {
   const RowReception& row_;
   const BeamPositions& beams_;
   const CellOptions& options_;
-  double nodes_per_u_;
   std::array<Side, 2> side_;
   std::array<Densities, 3> densities_;
   std::vector<Complex> all_, spectrum_, beside_,

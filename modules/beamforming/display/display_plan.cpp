@@ -73,6 +73,7 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium, double sam
       period(period_of(head)),
       broad(nodes / 2 + 1),
       node_width(node_width_of(head, wavelength_of(head, medium))),
+      nodes_per_u(1 / node_width),
       beam_width(head.fan.beam_width),
       all_length(fft_length(2 * (nodes_apart(head.fan) + nodes_fading))),
       half_positions(head.array.elements() % 2 == 0),
@@ -92,7 +93,7 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium, double sam
   first_element = (period - head.array.elements() / 2) % period;
   if (half_positions)
     for (std::size_t i = 0; i < nodes; ++i)
-      turn.push_back(std::polar(1.0, -pi * (static_cast<double>(i) + 0.5) / static_cast<double>(period)));
+      turn.emplace_back(std::polar(1.0, -pi * (static_cast<double>(i) + 0.5) / static_cast<double>(period)));
   fill_kernels(head, medium);
   fill_lobe(head);
   fill_looks();

@@ -62,20 +62,20 @@ struct DisplayPlan {
   DisplayPlan(const SonarHead& head, const Medium& medium, double sample_length);
 
   std::size_t nodes, period, broad;
-  double node_width, beam_width;
+  double node_width, nodes_per_u, beam_width;
   std::size_t node_of(double u) const {
-    const double position = (u + 1) / node_width;
+    const double position = (u + 1) * nodes_per_u;
     return position <= 0 ? 0 : std::min(static_cast<std::size_t>(position), nodes - 1);
   }
 
   std::size_t all_length;
 
-  std::vector<double> lag;                 ///< R_m of E65 by lag, m = 0 .. N - 1, divided by N^2
-  std::vector<double> lag_weight;          ///< the same, for samples that are interpolated (E186)
-  std::vector<float> element_weight;       ///< w_m / N, for samples that are interpolated (E186)
-  std::size_t first_element;               ///< index of element 0 in a transformed period
-  bool half_positions;                     ///< elements stand at half-integers
-  std::vector<std::complex<double>> turn;  ///< factor of the pressure of an echo at each node, if half_positions
+  std::vector<double> lag;                ///< R_m of E65 by lag, m = 0 .. N - 1, divided by N^2
+  std::vector<double> lag_weight;         ///< the same, for samples that are interpolated (E186)
+  std::vector<float> element_weight;      ///< w_m / N, for samples that are interpolated (E186)
+  std::size_t first_element;              ///< index of element 0 in a transformed period
+  bool half_positions;                    ///< elements stand at half-integers
+  std::vector<std::complex<float>> turn;  ///< factor of the pressure of an echo at each node, if half_positions
 
   std::vector<std::vector<double>> kernel;  ///< spectra of the band's mean pattern, by blocks of range
   /// Spectra of what of these patterns is heard one cell and two cells before an echo, and behind it (E188); empty if

@@ -32,7 +32,7 @@ void CellRow::partition_strong(Side& side) {
     const CellEcho& echo = *piece.echo;
     if (echo.together == 0) return true;
     const double energy = piece.energy * echo.together;
-    const std::int32_t beam = beams_.beam_near[echo.node];
+    const std::int32_t beam = beams_.beam_near[plan_.node_of(echo.u)];
     const double reception = beam < 0 ? side.energy : std::min(side.energy, side.mean[static_cast<std::size_t>(beam)]);
     return energy > strong_share * reception && energy > strong_share * reception * pieces_of(echo, plan_);
   };
@@ -65,7 +65,7 @@ void CellRow::add_strong(const Piece& piece, std::vector<double>& mean) {
   const double u = echo.u, away = u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
   const std::size_t count = plan_.lag.size();
   const Complex turn = std::polar(1.0, -step * away);
-  Complex at = static_cast<double>(piece.sign * std::sqrt(piece.energy)) * Complex(echo.pressure) *
+  Complex at = static_cast<double>(std::copysign(std::sqrt(piece.energy), piece.response)) * Complex(echo.pressure) *
                std::polar(1.0, -step * away * element_position(0, count));
   for (std::size_t m = 0; m < count; ++m, at *= turn)
     at_elements_[(plan_.first_element + m) % plan_.period] += std::complex<float>(at);
