@@ -61,7 +61,7 @@ struct CellLabels {
 /// The expected intensity is the sum of the energies of the echoes, times the pattern of the beam, averaged over the
 /// band (E181). The number of looks of a cell follows from the ranges of its energy, from the pulse and from the noise
 /// (E182, E223, E226). Speckle is a gamma variate of so many looks that is made from three complex sums, over the echoes of
-/// thirds of its ranges, with their phases and with the random amplitudes of samples, so that it stays with the surface and
+/// thirds of its ranges, with their phases and with random amplitudes of their own, so that it stays with the surface and
 /// changes with the pose as that of samples does (E183). Echoes that hold more than a tenth of a cell are added to it as pressures (E184), and so are `fixed` ones, whose
 /// amplitudes are not random.
 ///
