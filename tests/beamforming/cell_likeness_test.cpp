@@ -18,7 +18,8 @@ class BeamLikeness {
 };
 
 // The middle beam hears the near half of each cell from one side and the far half from the other, and the last beam the
-// near half alone. Pressures summed over the whole cell are far less alike.
+// near half alone. Pressures summed over the whole cell are far less alike. Of 1200 pairs, 0.1 is three standard errors of
+// the difference.
 TEST(DisplayCells, beams_that_hear_other_ranges_are_as_alike_as_those_of_samples) {
   const SonarHead samples =
       line_head({.beams = 9, .elements = 32, .field_of_view_deg = 8, .min_range = 2, .max_range = 3});
