@@ -28,7 +28,7 @@ void CellRow::sum_fields(std::size_t cell, std::size_t s) {
   const std::size_t odd = plan_.noise_of_next > 0 ? 0 : cell % 2;
   for (const Piece& piece : side.even) {
     const CellEcho& echo = *piece.echo;
-    // In two parts, as a box of their length.
+    // The echo is in two parts, as a box of their length.
     const double place = static_cast<double>(echo.range) * per_part - first;
     if (!(echo.root > 0 && place > 0 && place < static_cast<double>(field_parts + 1))) continue;
     const auto far = static_cast<std::size_t>(place);
@@ -42,7 +42,7 @@ void CellRow::sum_fields(std::size_t cell, std::size_t s) {
       const float a = root * std::sqrt(part), re = a * of.real(), im = a * of.imag();
       nodes_[q][position] +=
           std::complex<float>{turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re};
-      reinterpret_cast<double*>(&power_at_[q][position])[s] += static_cast<double>(a * a);
+      reinterpret_cast<double*>(&power_at_[q][position])[s] += static_cast<double>(a) * static_cast<double>(a);
     };
     if (far > 0) add(far - 1, 1 - share);
     if (far < field_parts) add(far, share);

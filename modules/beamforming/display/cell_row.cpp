@@ -224,7 +224,7 @@ void CellRow::draw(Side& side) {
     even_.looks[b] = looks_at(beams_.broad_of[b], side.looks);
     even_.mean[b] = side.mean[b], even_.strong[b] = 0;
     for (std::size_t q = 0; q < field_parts; ++q)
-      even_.intensity[q][b] = static_cast<double>(std::norm(beams_.in_field[b].of(side.field[q].data())));
+      even_.intensity[q][b] = std::norm(Complex(beams_.in_field[b].of(side.field[q].data())));
     if (side.groups > 0) add_groups(b, side);
   }
   kernels::EvenGround ground{{}, {}, even_.looks.data(), even_.mean.data(), even_.strong.data()};
