@@ -12,7 +12,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t echoes_at_once = 4096, cells_at_once = 16;
-constexpr std::uint64_t aside_seed = 0xa0761d6478bd642f;  // far from seeds of other numbers
+constexpr std::uint64_t aside_seed = 0xa0761d6478bd642f;  // difference from the seed of the amplitudes of samples
 
 /// First and last cell of an echo; the first is beyond the last if it has none.
 struct CellSpan {

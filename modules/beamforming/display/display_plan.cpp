@@ -12,8 +12,8 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t nodes_per_element = 4;
-constexpr std::size_t nodes_between = 4;    // about a beam, from which its level is interpolated
-constexpr std::size_t nodes_fading = 16;    // beyond the farthest that a beam hears
+constexpr std::size_t nodes_between = 4;    // nodes to either side of a beam, from which its level is interpolated
+constexpr std::size_t nodes_fading = 16;    // nodes beyond the farthest that a beam hears
 constexpr std::size_t blocks_of_range = 4;  // with kernels of their own, where absorption changes the spectrum
 constexpr double least_beside = 1e-12;
 constexpr double least_spread = 1e-3;  // energy heard in other cells from which on it counts; an echo in a main lobe: 1

@@ -18,8 +18,8 @@ namespace insonify {
 namespace {
 
 constexpr const char* me = "synthesize_cells";
-constexpr std::size_t blocks_of_thread = 8;  // of pairs of cells, so that threads end together
-constexpr double row_tolerance = 1e-3;       // of the echoes that rows of beams omit
+constexpr std::size_t blocks_of_thread = 8;  // blocks of pairs of cells for each thread, so that all end together
+constexpr double row_tolerance = 1e-3;       // relative error by echoes that rows of beams omit
 
 void require_valid(const SurfaceEchoes& surface) {
   const std::size_t n = surface.echoes.size();
@@ -63,7 +63,7 @@ struct CellSynthesizer::Plan {
   void form_row(const FanRow& of, const RowReception& reception, const EchoesByCell& lists, const CellOptions& options,
                 Grid<double>& cells) const {
     Grid<double> image(of.beams.size(), display.cells);
-    // Blocks of a thread: each needs the pairs beside it too.
+    // Each block also needs the pairs beside it, so that long ones do less work twice.
     const std::size_t pairs = (display.cells + 1) / 2;
     const std::size_t block = pairs / (blocks_of_thread * static_cast<std::size_t>(thread_count(options.threads)));
     parallel_blocks(pairs, std::clamp<std::size_t>(block, 8, 32), options.threads,
