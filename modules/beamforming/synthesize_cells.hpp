@@ -16,6 +16,13 @@ namespace insonify {
 /// surface may have several echoes, which carry its speckle; one of them has the energy of all. Both senses of a path
 /// are two echoes of one id, which add up as pressures: an entry of id `of_both` behind them is what that adds to their
 /// energy (E190), and has no pressure of its own.
+/// The piece of surface that an echo is of, as a disc: by how much range [m] and u change from its middle to its edge, along
+/// two axes that stand with the surface. All 0: a point.
+struct EchoDisc {
+  float range[2] = {0, 0}, u[2] = {0, 0};
+  bool is_point() const { return range[0] == 0 && range[1] == 0 && u[0] == 0 && u[1] == 0; }
+};
+
 struct SurfaceEchoes {
   static constexpr std::uint64_t of_both = 0xffffffffffffffff;
 
@@ -27,6 +34,7 @@ struct SurfaceEchoes {
   /// How u changes along a tilted surface with range [1/m], and its half extent in u at one range, of the first echoes
   /// (E189); the others are as wide at each of their ranges.
   std::vector<float> slope{}, across{};
+  std::vector<EchoDisc> disc{};
 };
 
 /// Options of synthesize_cells.

@@ -10,6 +10,7 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "returns/cell_labels.hpp"
+#include "sampling/sampled_cells.hpp"
 #include "simulate/cell_sum_internal.hpp"
 
 namespace insonify {
@@ -17,21 +18,53 @@ namespace {
 
 constexpr std::size_t patches_at_once = 4096;
 constexpr double least_cosine = 1e-3;
-constexpr double least_tilt = 1e-6;  // square of the sine from which on a plane has ranges
+constexpr double least_part_of_cell = 0.125;  // area of a patch from which on it is a disc; samples split it
+constexpr double least_tilt = 1e-6;           // square of the sine from which on a plane has ranges
 constexpr double no_noise_db = -std::numeric_limits<double>::infinity();
 
 /// How u changes along a plane with range, and how it changes at one range, both times the range (E189). The direction is
-/// that from the head, the normal is in its axes.
+/// that from the head; both are in its axes.
 struct TiltInU {
   double slope = 0, across = 0;
-  TiltInU(const Direction& to, const Eigen::Vector3d& normal) {
-    const double level = std::cos(to.elevation), u = level * std::sin(to.azimuth);
-    const Eigen::Vector3d d(level * std::cos(to.azimuth), u, std::sin(to.elevation));
-    const double facing = normal.dot(d), aside = normal.y() - u * facing;
+  TiltInU(const Eigen::Vector3d& direction, const Eigen::Vector3d& normal) {
+    const double u = direction.y();
+    const double facing = normal.dot(direction), aside = normal.y() - u * facing;
     const double range_square = 1 - facing * facing, u_square = std::max(0.0, 1 - u * u - aside * aside);
     if (range_square > least_tilt) slope = -facing * aside / range_square;
     across = std::sqrt(std::max(0.0, u_square - slope * slope * std::max(0.0, range_square)));
   }
+};
+
+/// Makes discs of patches of a scene (E228). Two axes of each stand with its surfel, and so with the part of the scene that
+/// it is of.
+class DiscMaker {
+ public:
+  /// Keeps a reference to the scene.
+  DiscMaker(const SceneCloud& scene, const Eigen::Matrix3d& to_head) : scene_(scene), to_head_(to_head.cast<float>()) {
+    for (const ScenePart& part : scene.parts)
+      part_to_head_.push_back(part.own ? Eigen::Matrix3f((to_head * part.world_from_part.linear()).cast<float>())
+                                       : to_head_);
+  }
+  /// Returns a patch of a surfel as a disc; direction: that from the head, in its axes; range, radius [m].
+  EchoDisc of(std::uint32_t surfel, const Eigen::Vector3d& direction, double range, double radius) const {
+    const ScenePart* const part = scene_.part_of_surfel(surfel);
+    const Eigen::Vector3f normal = part && part->own ? part->own->normal[scene_.id[surfel]] : scene_.normal[surfel];
+    const Eigen::Matrix3f& to_head = part ? part_to_head_[scene_.part[surfel]] : to_head_;
+    const Eigen::Vector3f along = normal.unitOrthogonal(), across = normal.cross(along), to = direction.cast<float>();
+    const Eigen::Vector3f axis[] = {to_head * along, to_head * across};
+    EchoDisc disc;
+    for (const int k : {0, 1}) {
+      const float away = axis[k].dot(to);
+      disc.range[k] = static_cast<float>(radius) * away;
+      disc.u[k] = static_cast<float>(radius / range) * (axis[k].y() - to.y() * away);
+    }
+    return disc;
+  }
+
+ private:
+  const SceneCloud& scene_;
+  Eigen::Matrix3f to_head_;
+  std::vector<Eigen::Matrix3f> part_to_head_;
 };
 
 /// The intensities of cells as a ping stores them.
@@ -44,28 +77,40 @@ ComplexGridF stored_cells(const Grid<double>& cells) {
 void CellSum::add_direct(const SceneCloud& scene, const Scatterers& patches, const Echoes& echoes) {
   const std::size_t before = all_.id.size();
   const Eigen::Matrix3d to_head = ping_.view.world_from_head.linear().transpose();
+  const DiscMaker discs(scene, to_head);
+  const BeamFan& fan = ping_.head.fan;
+  const SampledCells cells(fan, ping_.head.gate, ping_.view.sampling);
   append(all_.echoes, echoes);
   if (ping_.options.outputs.labels) surfel_ = patches.surfel;
   all_.id.insert(all_.id.end(), patches.id.begin(), patches.id.end());
   all_.power.resize(all_.id.size(), 0), all_.depth.resize(all_.id.size(), 0), all_.width.resize(all_.id.size(), 0);
   all_.slope.resize(all_.id.size(), 0);
   all_.across = all_.width;
+  all_.disc.resize(all_.id.size());
   parallel_blocks(patches.size(), patches_at_once, ping_.options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      // The first patch of a surfel, which is its middle, has the energy of all.
       const std::uint32_t surfel = patches.surfel[i];
+      const double range = patches.range[i], u = echoes.u[i],
+                   v = echoes.v.empty() ? std::sin(patches.elevation[i]) : echoes.v[i];
+      const double cosine = std::max(static_cast<double>(patches.cos_incidence[i]), least_cosine);
+      const double ahead = std::sqrt(std::max(0.0, 1 - u * u - v * v));
+      const Eigen::Vector3d direction(std::abs(patches.azimuth[i]) > 0.5 * pi ? -ahead : ahead, u, v);
+      const double patch = static_cast<double>(patches.projected_area[i]) / cosine;
+      if (patch > least_part_of_cell * cells.area(range, cosine, {fan.beam_width, fan.row_width}))
+        all_.disc[before + i] = discs.of(surfel, direction, range, std::sqrt(patch / pi));
+
+      // The first patch of a surfel, which is its middle, has the energy of all.
       if (i > 0 && patches.surfel[i - 1] == surfel) continue;
       double power = 0, area = 0;
       for (std::size_t k = i; k < patches.size() && patches.surfel[k] == surfel; ++k)
         power += std::norm(echoes.amplitude[k]), area += static_cast<double>(patches.projected_area[k]);
-      const double cosine = std::max(static_cast<double>(patches.cos_incidence[i]), least_cosine);
       const double radius = std::sqrt(area / cosine / pi), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
       all_.power[before + i] = power;
       all_.depth[before + i] = static_cast<float>(spread_of_disc * radius * sine);
-      all_.width[before + i] = static_cast<float>(spread_of_disc * radius / patches.range[i]);
-      const TiltInU tilt({patches.azimuth[i], patches.elevation[i]}, to_head * scene.normal[surfel].cast<double>());
-      all_.slope[before + i] = static_cast<float>(tilt.slope / patches.range[i]);
-      all_.across[before + i] = static_cast<float>(spread_of_disc * radius / patches.range[i] * tilt.across);
+      all_.width[before + i] = static_cast<float>(spread_of_disc * radius / range);
+      const TiltInU tilt(direction, to_head * scene.normal[surfel].cast<double>());
+      all_.slope[before + i] = static_cast<float>(tilt.slope / range);
+      all_.across[before + i] = static_cast<float>(spread_of_disc * radius / range * tilt.across);
     }
   });
   note("direct", before, 0);
@@ -133,11 +178,12 @@ ComplexGridF CellSum::drawn(const Span& layer) const {
                   part(all.v, first, end)};
   };
   const auto& [name, first, end, first_fixed, end_fixed] = layer;
-  const auto tilted = [&, first = first, end = end](const std::vector<float>& all) {
+  const auto tilted = [&, first = first, end = end](const auto& all) {
     return part(all, std::min(first, all.size()), std::min(end, all.size()));
   };
   return drawn({echoes(all_.echoes, first, end), part(all_.id, first, end), part(all_.power, first, end),
-                part(all_.depth, first, end), part(all_.width, first, end), tilted(all_.slope), tilted(all_.across)},
+                part(all_.depth, first, end), part(all_.width, first, end), tilted(all_.slope), tilted(all_.across),
+                tilted(all_.disc)},
                echoes(fixed_, first_fixed, end_fixed), no_noise_db);
 }
 

@@ -221,7 +221,7 @@ TEST(DisplayLoops, drawn_intensities_have_their_mean_and_looks) {
     power[q].assign(count, 2);
     for (const auto& field : display_normals(3 + q, count)) intensity[q].push_back(2 * std::norm(field));
   }
-  const std::vector<double> mean(count, 3), strong(count, 0.5);
+  const std::vector<double> mean(count, 3), strong(count, 0.5), nothing(count, 0);
   std::vector<double> drawn(count);
   for (const std::size_t fields : {3u, 2u}) {
     if (fields == 2) intensity[2].assign(count, 0), power[2].assign(count, std::numeric_limits<double>::min());
@@ -229,6 +229,7 @@ TEST(DisplayLoops, drawn_intensities_have_their_mean_and_looks) {
       const std::vector<double> wanted(count, looks);
       const kernels::EvenGround ground{{intensity[0].data(), intensity[1].data(), intensity[2].data()},
                                        {power[0].data(), power[1].data(), power[2].data()},
+                                       {nothing.data(), nothing.data()},
                                        wanted.data(),
                                        mean.data(),
                                        strong.data()};
@@ -239,6 +240,64 @@ TEST(DisplayLoops, drawn_intensities_have_their_mean_and_looks) {
       EXPECT_NEAR(average, 3, 0.01 * 3) << looks << " looks of " << fields;
       EXPECT_NEAR(contrast, 1 / std::sqrt(looks), 0.01 / std::sqrt(looks) + 0.002) << looks << " looks of " << fields;
     }
+  }
+}
+
+// The points of a disc, 1.6 rad of phase and 0.3 of u from its middle to its edge, have its place, its extents and the loss of
+// coherence of a disc that turns: twice J1(x) / x for a change of phase by x at its edge.
+TEST(DisplayLoops, points_have_energy_extent_and_coherence_of_a_disc) {
+  constexpr std::size_t count = 1 << 16, number = kernels::points_of_disc;
+  std::vector<std::uint64_t> id(count);
+  std::iota(id.begin(), id.end(), 0);
+  const std::vector<double> place(count, 7), u(count, 0.1), one(count, 1), zero(count, 0), root(count, 0.5);
+  struct Points {
+    std::array<std::vector<float>, number> re, im, place;
+    std::array<std::vector<std::int32_t>, number> node;
+  };
+  const auto points_of = [&](double first, double second) {
+    const std::vector<double> along(count, first), across(count, second), in_u(count, 0.3);
+    Points of;
+    kernels::DiscPoints to;
+    for (std::size_t k = 0; k < number; ++k) {
+      of.re[k].resize(count), of.im[k].resize(count), of.place[k].resize(count), of.node[k].resize(count);
+      to.re[k] = of.re[k].data(), to.im[k] = of.im[k].data(), to.place[k] = of.place[k].data();
+      to.node[k] = of.node[k].data();
+    }
+    kernels::draw_discs(5, id.data(),
+                        {place.data(),
+                         u.data(),
+                         one.data(),
+                         zero.data(),
+                         root.data(),
+                         {along.data(), across.data()},
+                         {in_u.data(), zero.data()},
+                         2,
+                         1000,
+                         1999},
+                        count, to);
+    return of;
+  };
+  const Points before = points_of(0.25, 0);
+  double energy = 0, middle = 0, square = 0, square_u = 0;
+  for (std::size_t k = 0; k < number; ++k)
+    for (std::size_t i = 0; i < count; ++i) {
+      const double away = static_cast<double>(before.place[k][i]) - 7, away_u = (before.node[k][i] + 0.5) / 1000 - 1.1;
+      energy += before.re[k][i] * before.re[k][i] + before.im[k][i] * before.im[k][i];
+      middle += away, square += away * away, square_u += away_u * away_u;
+    }
+  EXPECT_NEAR(energy / count, 1, 0.01);
+  EXPECT_NEAR(middle / (number * count), 0, 1e-6);
+  EXPECT_NEAR(square / (number * count), std::pow(2 * 0.25, 2) / 4, 1e-3);
+  EXPECT_NEAR(square_u / (number * count), 0.3 * 0.3 / 4, 1e-3);
+  for (const double turned : {0.1, 0.2, 0.3}) {
+    const Points after = points_of(0.25, turned);
+    std::complex<double> sum = 0;
+    for (std::size_t k = 0; k < number; ++k)
+      for (std::size_t i = 0; i < count; ++i)
+        sum += std::complex<double>(before.re[k][i], before.im[k][i]) *
+               std::complex<double>(after.re[k][i], -after.im[k][i]);
+    const double x = 2 * pi * turned;
+    EXPECT_NEAR(std::abs(sum) / count, 2 * std::cyl_bessel_j(1, x) / x, 0.03) << turned;
   }
 }
 

@@ -119,7 +119,7 @@ TEST(PingOfParts, has_the_same_bytes_in_any_order_and_with_one_more_part_out_of_
 }
 
 /// Returns the relative change of a ping by a rigid motion of part and head together.
-double change_by_moving_all(const Pose& motion, const PlacedPart& part) {
+double change_by_moving_all(const Pose& motion, const PlacedPart& part, const SimulationOptions& o = {}) {
   const PingEvent at{pose_from_yaw_pitch_roll({0.2, 0.1, 0.4}, 0.1, radians(5), 0.1), {{0.5, -0.2, 0}, {0, 0, 0.1}}};
   PingEvent moved = at;
   moved.world_from_head = motion * at.world_from_head;
@@ -127,8 +127,8 @@ double change_by_moving_all(const Pose& motion, const PlacedPart& part) {
   PlacedPart there = part;
   there.world_from_part = motion * part.world_from_part;
   there.velocity = motion.linear() * part.velocity, there.turn_rate = motion.linear() * part.turn_rate;
-  return relative_l2(event_ping(merge_parts(std::vector{there}), moved).ping.pressure,
-                     event_ping(merge_parts(std::vector{part}), at).ping.pressure);
+  return relative_l2(event_ping(merge_parts(std::vector{there}), moved, o).ping.pressure,
+                     event_ping(merge_parts(std::vector{part}), at, o).ping.pressure);
 }
 
 TEST(PingOfParts, hears_the_same_of_a_part_that_moves_together_with_the_head) {
@@ -136,6 +136,14 @@ TEST(PingOfParts, hears_the_same_of_a_part_that_moves_together_with_the_head) {
   part.velocity = {-1, 0.5, 0.2}, part.turn_rate = {0.1, 0.2, -0.4};
   EXPECT_LT(change_by_moving_all(pose_from_yaw_pitch_roll({3, -70, 12}, 0, 0, 0), part), 1e-5);
   EXPECT_LT(change_by_moving_all(pose_from_yaw_pitch_roll({400, -70, -900}, 2.1, 0.9, -0.6), part), 1e-5);
+}
+
+// Wide surfels are drawn as points of discs, which stand with their part (E228).
+TEST(PingOfParts, draws_the_same_cells_of_a_part_that_moves_together_with_the_head) {
+  SimulationOptions image;
+  image.outputs.display_bins = 24;
+  const PlacedPart coarse = placed("ball", ball(0.3, 60), {5, 0.4, -0.2}, 0.7);
+  EXPECT_LT(change_by_moving_all(pose_from_yaw_pitch_roll({40, -70, -9}, 2.1, 0.9, -0.6), coarse, image), 1e-3);
 }
 
 TEST(PingOfParts, keeps_the_speckle_of_a_part_that_others_join) {

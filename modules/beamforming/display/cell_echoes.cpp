@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "acoustics/direct_echoes.hpp"
 #include "beamforming/display/cell_echoes_internal.hpp"
+#include "beamforming/display/field_points_internal.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 
@@ -12,7 +12,6 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t echoes_at_once = 4096, cells_at_once = 16;
-constexpr std::uint64_t aside_seed = 0xa0761d6478bd642f;  // difference from the seed of the amplitudes of samples
 
 /// First and last cell of an echo; the first is beyond the last if it has none.
 struct CellSpan {
@@ -27,10 +26,9 @@ class EchoMaker {
       : plan_(plan),
         surface_(surface),
         fixed_(fixed),
-        options_(options),
         metres_per_s_(0.5 * medium.sound_speed),
         per_cell_length_(1 / plan.cell_length),
-        pulse_(plan.pulse.half_length()) {}
+        points_(plan, surface, options) {}
 
   /// Sets the cells that echoes begin .. end - 1 are in.
   void find_cells(std::size_t begin, std::size_t end, std::vector<CellSpan>& cells) const {
@@ -41,35 +39,24 @@ class EchoMaker {
       cells[i] = cells_of(metres_per_s_ * (is_surface ? surface_.echoes.delay[i] : fixed_.delay[i - surfaces]), depth);
     }
   }
-  /// Sets those of echoes begin .. end - 1 that have a position in the list; `position` beyond it: none.
+  /// Sets those of echoes begin .. end - 1 that have a position in the list, and adds their points; `slot` beyond it:
+  /// none.
   void make(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& slot,
-            UninitializedVector<CellEcho>& echoes) const {
-    const std::size_t surfaces = surface_.id.size(), drawn = begin < surfaces ? std::min(end, surfaces) - begin : 0;
-    std::vector<double> re(drawn, 0), im(drawn, 0), aside_re(drawn, 0), aside_im(drawn, 0);
-    if (options_.speckle && drawn > 0) {
-      const std::uint64_t* id = surface_.id.data() + begin;
-      random_amplitudes(options_.seed, {id, drawn}, re.data(), im.data());  // (E9)
-      kernels::draw_normals(options_.seed ^ aside_seed, id, drawn, aside_re.data(), aside_im.data());
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-      if (slot[i] >= echoes.size()) continue;
-      if (i >= surfaces) {
-        echoes[slot[i]] = of_target(i - surfaces);
-        continue;
-      }
-      const std::size_t k = i - begin;
-      echoes[slot[i]] = of_surface(i, {re[k], im[k]}, {aside_re[k], aside_im[k]});
-    }
+            UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const {
+    const std::size_t surfaces = surface_.id.size();
+    for (std::size_t i = begin; i < end; ++i)
+      if (slot[i] < echoes.size()) echoes[slot[i]] = i < surfaces ? of_surface(i) : of_target(i - surfaces);
+    if (begin < surfaces) points_.add(begin, std::min(end, surfaces), slot, echoes, points);
   }
+  /// Returns true if an echo has the energy of a surface or target.
+  bool has_energy(std::size_t i) const { return i >= surface_.id.size() || surface_.power[i] > 0; }
 
  private:
   using Complex = std::complex<double>;
 
-  CellEcho of_surface(std::size_t i, const Complex& amplitude, const Complex& aside) const {
+  CellEcho of_surface(std::size_t i) const {
     CellEcho echo;
     const double in_cell = set_place(surface_.echoes, i, echo);
-    const Complex phase = set_root(surface_.echoes.amplitude[i], in_cell, echo);
-    if (!is_both(i)) echo.pressure = product(phase, amplitude), echo.aside = product(phase, aside);
     echo.energy = static_cast<float>(in_cell * surface_.power[i]);
     if (echo.energy > 0) {
       echo.half_depth = surface_.depth[i];
@@ -83,7 +70,8 @@ class EchoMaker {
   CellEcho of_target(std::size_t i) const {
     CellEcho echo;
     const double in_cell = set_place(fixed_, i, echo);
-    echo.pressure = product(set_root(fixed_.amplitude[i], in_cell, echo), 1);
+    if (const double size = std::abs(fixed_.amplitude[i]); size > 0)
+      echo.pressure = std::complex<float>(fixed_.amplitude[i] / size);
     echo.energy = static_cast<float>(in_cell * std::norm(fixed_.amplitude[i]));
     echo.together = 0;
     set_extent(fixed_.u[i], echo);
@@ -95,19 +83,8 @@ class EchoMaker {
     echo.range = static_cast<float>(range), echo.u = static_cast<float>(echoes.u[i]);
     return plan_.pulse.energy(range) * per_cell_length_;
   }
-  /// Sets the root of the echo's own energy; returns its phase, 0 if it has none.
-  static Complex set_root(const Complex& of, double in_cell, CellEcho& echo) {
-    const double square = std::norm(of);
-    echo.root = static_cast<float>(std::sqrt(in_cell * square));
-    return square > 0 ? of * (1 / std::sqrt(square)) : 0;
-  }
-  static std::complex<float> product(const Complex& phase, const Complex& a) {
-    return {static_cast<float>(phase.real() * a.real() - phase.imag() * a.imag()),
-            static_cast<float>(phase.real() * a.imag() + phase.imag() * a.real())};
-  }
   void set_extent(double u, CellEcho& echo) const {
-    const auto width = static_cast<double>(echo.half_width), depth = static_cast<double>(echo.half_depth);
-    echo.reach = static_cast<float>(std::sqrt(depth * depth + pulse_ * pulse_));
+    const auto width = static_cast<double>(echo.half_width);
     echo.port = static_cast<std::uint32_t>(plan_.node_of(u + width) / 2);
     echo.starboard = static_cast<std::uint32_t>(plan_.node_of(u - width) / 2);
   }
@@ -134,8 +111,8 @@ class EchoMaker {
   const DisplayPlan& plan_;
   const SurfaceEchoes& surface_;
   const Echoes& fixed_;
-  const CellOptions& options_;
-  double metres_per_s_, per_cell_length_, pulse_;
+  double metres_per_s_, per_cell_length_;
+  FieldPointMaker points_;
 };
 
 /// Returns the position of each echo among those that are in a cell, by their first cells: what a cell holds stands side by
@@ -185,17 +162,22 @@ EchoesByCell echoes_by_cell(const DisplayPlan& plan, const SurfaceEchoes& surfac
                   [&](std::size_t begin, std::size_t end) { maker.find_cells(begin, end, cells); });
   const std::vector<std::uint32_t> slot = slots_by_cell(cells, plan.cells, lists.source);
   lists.echoes.resize(lists.source.size());
-  parallel_blocks(count, echoes_at_once, options.threads,
-                  [&](std::size_t begin, std::size_t end) { maker.make(begin, end, slot, lists.echoes); });
+  std::vector<PlacedPoints> points((count + echoes_at_once - 1) / echoes_at_once);
+  parallel_blocks(count, echoes_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
+    maker.make(begin, end, slot, lists.echoes, points[begin / echoes_at_once]);
+  });
+  lists.points = points_by_cell(points, plan.cells, options.threads);
   // The echoes of each cell, in the order in which they were given.
   lists.first.assign(plan.cells + 1, 0);
-  for (const CellSpan& span : cells)
-    for (std::size_t c = span.first; c <= span.last; ++c) ++lists.first[c + 1];
+  for (std::size_t i = 0; i < count; ++i)
+    if (maker.has_energy(i))
+      for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) ++lists.first[c + 1];
   for (std::size_t c = 0; c < plan.cells; ++c) lists.first[c + 1] += lists.first[c];
   lists.piece.resize(lists.first.back());
   std::vector<std::size_t> next(lists.first.begin(), lists.first.end() - 1);
   for (std::uint32_t i = 0; i < count; ++i)
-    for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) lists.piece[next[c]++].echo = slot[i];
+    if (maker.has_energy(i))
+      for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) lists.piece[next[c]++].echo = slot[i];
   parallel_blocks(plan.cells, cells_at_once, options.threads,
                   [&](std::size_t begin, std::size_t end) { set_parts(plan, begin, end, lists); });
   return lists;

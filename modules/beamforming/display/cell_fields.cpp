@@ -10,6 +10,7 @@
 namespace insonify {
 namespace {
 
+constexpr double shared_rounding = 1e-5;  // part of the louder of two cells that transforms leave in the other
 constexpr std::uint64_t ping_seed = 0x9e3779b97f4a7c15, stage_seed = 0xd1b54a32d192ed03;  // odd, far from each other
 
 /// Seed of the noise of a ping, far from those of the amplitudes of surfaces.
@@ -19,33 +20,31 @@ std::uint64_t noise_seed(const CellOptions& options) {
 
 }  // namespace
 
+bool CellRow::is_strong(const Side& side, std::uint32_t echo) const {
+  const CellEcho* const at = &lists_.echoes[echo];
+  return std::any_of(side.strong.begin(), side.strong.end(), [at](const Piece& piece) { return piece.echo == at; });
+}
+
 void CellRow::sum_fields(std::size_t cell, std::size_t s) {
   Side& side = side_[s];
   for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), 0);
-  const double per_part = static_cast<double>(field_parts) / plan_.cell_length,
-               first = (plan_.first_range + static_cast<double>(cell) * plan_.cell_length) * per_part - 0.5;
-  // Parts of long cells that meet at an edge have amplitudes of their own, as parts of one cell that meet.
-  const std::size_t odd = plan_.noise_of_next > 0 ? 0 : cell % 2;
-  for (const Piece& piece : side.even) {
-    const CellEcho& echo = *piece.echo;
-    // The echo is in two parts, as a box of their length.
-    const double place = static_cast<double>(echo.range) * per_part - first;
-    if (!(echo.root > 0 && place > 0 && place < static_cast<double>(field_parts + 1))) continue;
-    const auto far = static_cast<std::size_t>(place);
-    const float share = static_cast<float>(place) - static_cast<float>(far), root = piece.response * echo.root;
-    const std::size_t node = plan_.node_of(echo.u);
-    std::size_t position = node;
-    while (position >= plan_.period) position -= plan_.period;
-    const std::complex<float> turn = plan_.half_positions ? plan_.turn[node] : 1;
-    const auto add = [&](std::size_t q, float part) {
-      const std::complex<float>& of = q % 2 == odd ? echo.pressure : echo.aside;
-      const float a = root * std::sqrt(part), re = a * of.real(), im = a * of.imag();
-      nodes_[q][position] +=
-          std::complex<float>{turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re};
-      reinterpret_cast<double*>(&power_at_[q][position])[s] += static_cast<double>(a) * static_cast<double>(a);
-    };
-    if (far > 0) add(far - 1, 1 - share);
-    if (far < field_parts) add(far, share);
+  const PointsByCell& points = lists_.points;
+  std::array<double*, field_parts> power;
+  std::array<float*, field_parts - 1> shared;
+  for (std::size_t q = 0; q < field_parts; ++q) power[q] = reinterpret_cast<double*>(power_at_[q].data()) + s;
+  for (std::size_t q = 0; q + 1 < field_parts; ++q) shared[q] = reinterpret_cast<float*>(shared_at_[q].data()) + s;
+  for (std::uint32_t k = points.first[cell]; k < points.first[cell + 1]; ++k) {
+    const FieldPoint& point = points.point[k];
+    const float response = row_.response.empty() ? 1 : static_cast<float>(row_.response[point.echo]);
+    if (response == 0 || (!side.strong.empty() && is_strong(side, point.echo))) continue;
+    const FieldShares::Share& share = plan_.fields.share[point.share];
+    const std::complex<float> pressure = response * point.pressure;
+    const float square = response * response * point.power, near = square * share.near, far = square * share.far;
+    nodes_[share.first][point.node] += share.near * pressure;
+    nodes_[share.first + 1][point.node] += share.far * pressure;
+    power[share.first][2 * point.node] += static_cast<double>(near * share.near);
+    power[share.first + 1][2 * point.node] += static_cast<double>(far * share.far);
+    shared[share.first][2 * point.node] += near * share.far;
   }
   for (std::size_t q = 0; q < field_parts; ++q) {
     plan_.field_to_elements.run(nodes_[q].data(), at_elements_.data());
@@ -104,6 +103,27 @@ void CellRow::sum_powers(std::size_t sides) {
       side_[0].power[q][b] = std::max({power.real(), noise.real(), least});
       side_[1].power[q][b] = std::max({power.imag(), noise.imag(), least});
     }
+  }
+  for (std::size_t q = 0; q + 1 < field_parts; ++q) sum_shared(q);
+}
+
+void CellRow::sum_shared(std::size_t q) {
+  // From this power only a number of looks follows: single precision is enough.
+  const std::size_t length = plan_.period, count = plan_.lag.size();
+  plan_.field_to_elements.run(shared_at_[q].data(), at_elements_.data());
+  for (std::size_t m = count; m <= length - count; ++m) at_elements_[m] = 0;
+  for (std::size_t m = 0; m < count; ++m) {
+    at_elements_[m] *= plan_.shared_weight[m];
+    if (m > 0) at_elements_[length - m] *= plan_.shared_weight[m];
+  }
+  plan_.elements_to_field.run(at_elements_.data(), shared_.data() + guards_before);
+  repeat_ends(shared_);
+  for (std::size_t b = 0; b < drawn_.size(); ++b) {
+    const std::complex<float> power = beams_.in_field[b].of(shared_.data());
+    const double one = static_cast<double>(power.real()), other = static_cast<double>(power.imag());
+    // Transforms leave a part of the louder cell in the other.
+    side_[0].shared[q][b] = std::abs(one) > shared_rounding * std::abs(other) ? one : 0;
+    side_[1].shared[q][b] = std::abs(other) > shared_rounding * std::abs(one) ? other : 0;
   }
 }
 

@@ -35,6 +35,7 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
       spectrum_(plan.all_length),
       beside_(plan.all_length),
       all_samples_(plan.all_length + guards_before + guards_behind),
+      shared_(plan.period + guards_before + guards_behind),
       lags_(plan.period),
       power_(plan.period + guards_before + guards_behind),
       elements_(plan.period),
@@ -50,10 +51,13 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
   for (Side& side : side_) {
     side.mean.resize(beams);
     for (auto& power : side.power) power.resize(beams);
+    for (auto& shared : side.shared) shared.resize(beams);
     side.looks.resize(row.beams.broad_used.size());
     for (auto& field : side.field) field.resize(plan.period + guards_before + guards_behind);
   }
-  for (std::size_t q = 0; q < field_parts; ++q) nodes_[q].resize(plan.period), power_at_[q].resize(plan.period);
+  for (auto& nodes : nodes_) nodes.resize(plan.period);
+  for (auto& power : power_at_) power.resize(plan.period);
+  for (auto& shared : shared_at_) shared.resize(plan.period);
   for (auto& intensity : even_.intensity) intensity.resize(beams);
   for (auto* numbers : {&even_.looks, &even_.mean, &even_.strong, &drawn_}) numbers->resize(beams);
   if (row.labelled) labels_ = std::make_unique<LabelRow>(plan, lists, *row.labelled);
@@ -79,6 +83,7 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
     return;
   }
   for (auto& nodes : power_at_) std::fill(nodes.begin(), nodes.end(), Complex(0));
+  for (auto& nodes : shared_at_) std::fill(nodes.begin(), nodes.end(), 0);
   for (std::size_t s = 0; s < sides; ++s) {
     Side& side = side_[s];
     partition_strong(side);
@@ -227,9 +232,10 @@ void CellRow::draw(Side& side) {
       even_.intensity[q][b] = std::norm(Complex(beams_.in_field[b].of(side.field[q].data())));
     if (side.groups > 0) add_groups(b, side);
   }
-  kernels::EvenGround ground{{}, {}, even_.looks.data(), even_.mean.data(), even_.strong.data()};
+  kernels::EvenGround ground{{}, {}, {}, even_.looks.data(), even_.mean.data(), even_.strong.data()};
   for (std::size_t q = 0; q < field_parts; ++q)
     ground.intensity[q] = even_.intensity[q].data(), ground.power[q] = side.power[q].data();
+  for (std::size_t q = 0; q + 1 < field_parts; ++q) ground.shared[q] = side.shared[q].data();
   kernels::draw_looks(ground, drawn_.size(), drawn_.data());  // (E183)
 }
 
@@ -251,7 +257,7 @@ void CellRow::add_groups(std::size_t beam, Side& side) {
   if (taken == 0) return;
   // Fields of which no look interferes are left for the rest of the even ground.
   for (std::size_t q = 0; q < std::min(taken, field_parts - 1); ++q)
-    even_.intensity[q][beam] = 0, side.power[q][beam] = std::numeric_limits<double>::min();
+    even_.intensity[q][beam] = 0, side.power[q][beam] = std::numeric_limits<double>::min(), side.shared[q][beam] = 0;
   const double left = looks - static_cast<double>(taken);
   even_.looks[beam] = left, even_.mean[beam] = mean * left / looks;
 }

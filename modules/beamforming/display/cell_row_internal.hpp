@@ -20,19 +20,21 @@ namespace insonify {
 /// is less than one line of the cache.
 struct CellEcho {
   float range = 0, half_depth = 0;        ///< [m]
-  float reach = 0;                        ///< half length of surface and pulse together [m]
   float u = 0;                            ///< direction cosine of its middle
   float half_width = 0;                   ///< in u
   float slope = 0, across = 0;            ///< change of u with range [1/m], half width at one range (E189)
   float energy = 0;                       ///< energy of its surface in a cell that holds all of it [Pa^2]
-  float root = 0;                         ///< root of its own energy in such a cell [Pa]
   float together = 1;                     ///< energy of all echoes of its amplitude, which add as pressures,
                                           ///< in its own; 0: its amplitude is not random
   std::complex<float> pressure{};         ///< its phase, times the random amplitude that samples have (E9), if any
-  std::complex<float> aside{};            ///< the same with another amplitude, for every other part of a cell (E183)
   std::uint32_t port = 0, starboard = 0;  ///< broad nodes of its ends
 };
 static_assert(sizeof(CellEcho) <= 64);
+
+/// Returns the half length [m] of an echo's surface and of a pulse of half length `pulse` [m] together.
+inline float reach_of(const CellEcho& echo, float pulse) {
+  return std::sqrt(echo.half_depth * echo.half_depth + pulse * pulse);
+}
 
 /// Returns the length of the overlap of [low, high] with [first, last].
 inline double overlap(double low, double high, double first, double last) {
@@ -45,8 +47,23 @@ struct EchoInCell {
   float energy;  ///< its surface's energy there, at the peak of the responses of rows [Pa^2]
 };
 
+/// A point of the surface of an echo, as the fields of a cell take it (E183).
+struct FieldPoint {
+  std::complex<float> pressure;  ///< at the middle of the array [Pa]
+  float power;                   ///< its expected square [Pa^2]
+  std::uint32_t node;            ///< among those of a period of u
+  std::uint32_t share;           ///< index in DisplayPlan::fields of its place in the cell
+  std::uint32_t echo;            ///< number of its echo
+};
+/// The points of each cell: those of cell c are point[first[c]] .. point[first[c + 1] - 1].
+struct PointsByCell {
+  std::vector<std::uint32_t> first;
+  UninitializedVector<FieldPoint> point;
+};
+
 /// The echoes of each cell: those of cell c are part[first[c]] .. part[first[c + 1] - 1].
 struct EchoesByCell {
+  PointsByCell points;
   UninitializedVector<CellEcho> echoes;  ///< those that are in a cell, by their first cells
   std::vector<std::uint32_t> source{};   ///< number of each echo here among those of the surface, then those fixed
   std::vector<std::size_t> first;
@@ -94,9 +111,10 @@ class CellRow {
     double noise = 0;                 ///< power of the noise in the fields of the beams [Pa^2]
     std::vector<double> mean;         ///< expected intensity of each beam [Pa^2]
     std::vector<double> looks;        ///< number of looks at each broad node in use (E182)
-    std::array<Field, field_parts> field;                ///< sums over echoes at a period of u, with guards (E183)
-    std::array<std::vector<double>, field_parts> power;  ///< their expected power in each beam [Pa^2]
-    std::vector<Field> strong_field;                     ///< field of the strong echoes, by groups that interfere
+    std::array<Field, field_parts> field;                     ///< sums over echoes at a period of u, with guards (E183)
+    std::array<std::vector<double>, field_parts> power;       ///< their expected power in each beam [Pa^2]
+    std::array<std::vector<double>, field_parts - 1> shared;  ///< expected product of each with the next [Pa^2]
+    std::vector<Field> strong_field;                          ///< field of the strong echoes, by groups that interfere
     std::size_t groups = 0;
   };
 
@@ -126,8 +144,10 @@ class CellRow {
   void partition_strong(Side& side);
   void sum_strong(Side& side);
   void add_strong(const Piece& piece, std::vector<double>& mean);
+  bool is_strong(const Side& side, std::uint32_t echo) const;
   void sum_fields(std::size_t cell, std::size_t s);
   void sum_powers(std::size_t sides);
+  void sum_shared(std::size_t q);
   /// Lists the energies of even ground in a cell by broad nodes, over `unit` [Pa^2].
   void list_energies(std::size_t cell, const Side& side, double unit);
   void count_looks(std::size_t cell, Side& side);
@@ -149,6 +169,8 @@ class CellRow {
   std::vector<Complex> all_, spectrum_, beside_,
       all_samples_;                                         ///< energies of cells over u, and those that beams receive
   std::array<std::vector<Complex>, field_parts> power_at_;  ///< powers of the fields by nodes, likewise
+  std::array<Field, field_parts - 1> shared_at_;            ///< products of each field with the next by nodes, likewise
+  Field shared_;                                            ///< one of them over a period of u
   std::vector<Complex> lags_, power_;                       ///< those of one part over a period of u
   std::vector<Complex> elements_;                           ///< spectrum of the powers of one part
   Field at_elements_, weighted_;                            ///< pressures at elements; the same weighted, 0 elsewhere

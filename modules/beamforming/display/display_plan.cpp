@@ -89,6 +89,7 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium, double sam
       from_all({all_length, 1, 1, 0, false}, FFTW_BACKWARD),
       field_to_elements({period, 1, 1, 0, false}, FFTW_FORWARD),
       elements_to_field({period, 1, 1, 0, false}, FFTW_BACKWARD) {
+  cycles_per_metre = 2 / wavelength_of(head, medium);
   fill_elements(head);
   first_element = (period - head.array.elements() / 2) % period;
   if (half_positions)
@@ -112,6 +113,7 @@ void DisplayPlan::fill_elements(const SonarHead& head) {
     element_weight.push_back(static_cast<float>(w[m] / n / of_fields().transform(frequency)));
     lag.push_back(pairs[m] / (n * n));  // (E65)
     lag_weight.push_back(lag[m] / of_powers().transform(place / in_period));
+    shared_weight.push_back(static_cast<float>(lag[m] / of_fields().transform(place / in_period)));
   }
 }
 

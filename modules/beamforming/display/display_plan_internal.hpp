@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <cstddef>
@@ -22,6 +23,26 @@ struct ReceiveFilter;
 inline constexpr double reach_of_pulse = 4;
 
 using kernels::field_parts;
+
+/// Amplitudes with which an echo is in two neighbouring fields of a cell, of which `first` is the nearer, by its place in the
+/// cell (E183): fields pass into each other over a third of the cell, and cells over twice `edge`.
+struct FieldShares {
+  struct Share {
+    float near, far;
+    std::uint32_t first;
+  };
+  FieldShares() = default;
+  /// likeness   correlation of cells side by side
+  explicit FieldShares(double likeness);
+  /// Returns the index in `share` of an echo at a place in a cell, 0 .. 1 or at most `edge` outside of it [cells].
+  std::uint32_t index_at(float place) const {
+    const float step = (place + static_cast<float>(edge)) * per_cell + 1;
+    return static_cast<std::uint32_t>(std::clamp(step, 0.f, static_cast<float>(share.size() - 1)));
+  }
+  double edge = 0;  ///< [cells]
+  float per_cell = 0;
+  std::vector<Share> share{};
+};
 
 /// Positions among samples of fields, and of powers. A period has four times as many samples as fields vary with, and
 /// twice as many as powers, whose weak parts count: errors are below 1e-3 and 1e-6 of the root of the mean square. So
@@ -72,6 +93,7 @@ struct DisplayPlan {
 
   std::vector<double> lag;                ///< R_m of E65 by lag, m = 0 .. N - 1, divided by N^2
   std::vector<double> lag_weight;         ///< the same, for samples that are interpolated (E186)
+  std::vector<float> shared_weight;       ///< the same for samples that are interpolated as those of fields
   std::vector<float> element_weight;      ///< w_m / N, for samples that are interpolated (E186)
   std::size_t first_element;              ///< index of element 0 in a transformed period
   bool half_positions;                    ///< elements stand at half-integers
@@ -98,6 +120,8 @@ struct DisplayPlan {
   /// Correlation of ground less that of noise with ground, and less that of noise: means over pairs of ranges of a cell
   /// (E223).
   float noise_with_ground = 0, noise_alone = 0;
+  double cycles_per_metre = 0;  ///< of phase of an echo, for each metre of range
+  FieldShares fields;
   double noise_of_next =
       0;  ///< part of the noise of a cell's last field that is that of the next, as an amplitude (E224)
 

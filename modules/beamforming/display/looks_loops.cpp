@@ -182,6 +182,36 @@ INSONIFY_CLONES void draw_normals(std::uint64_t seed, const std::uint64_t* id, s
   }
 }
 
+INSONIFY_CLONES void draw_discs(std::uint64_t seed, const std::uint64_t* id, const Discs& discs, std::size_t count,
+                                const DiscPoints& points) {
+  const std::uint64_t stream = mixed(seed + golden);
+  const Discs of = discs;
+  const DiscPoints to = points;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint64_t first = mixed(stream ^ (id[k] * golden));
+    double x, y;
+    vec::sine_cosine(uniform(mixed(first + golden)), y, x);
+    x *= 0.70710678118654752, y *= 0.70710678118654752;
+    const double cycles[] = {x * of.cycles[0][k] + y * of.cycles[1][k], x * of.cycles[1][k] - y * of.cycles[0][k]};
+    const double in_u[] = {x * of.to_edge[0][k] + y * of.to_edge[1][k], x * of.to_edge[1][k] - y * of.to_edge[0][k]};
+#pragma GCC unroll 4
+    for (std::size_t point = 0; point < points_of_disc; ++point) {
+      const double sign = point % 2 == 0 ? 1 : -1, away = sign * cycles[point / 2];
+      const std::uint64_t at = first + (2 * point + 2) * golden;
+      double sine, cosine;
+      vec::sine_cosine(uniform(mixed(at)) + away, sine, cosine);
+      const double magnitude = of.root[k] * std::sqrt(-vec::log(uniform(mixed(at + golden))));
+      to.re[point][k] = static_cast<float>(magnitude * (of.re[k] * cosine - of.im[k] * sine));
+      to.im[point][k] = static_cast<float>(magnitude * (of.re[k] * sine + of.im[k] * cosine));
+      to.place[point][k] = static_cast<float>(of.place[k] + away * of.cells_per_cycle);
+      const double node = (of.u[k] + sign * in_u[point / 2] + 1) * of.nodes_per_u;
+      const double within = node < 0 ? 0 : node;
+      to.node[point][k] = static_cast<std::int32_t>(within > of.last_node ? of.last_node : within);
+    }
+  }
+}
+
 INSONIFY_CLONES void draw_looks(const EvenGround& ground, std::size_t count, double* drawn) {
   const EvenGround of = ground;
   static_assert(field_parts == 3);
@@ -190,7 +220,12 @@ INSONIFY_CLONES void draw_looks(const EvenGround& ground, std::size_t count, dou
     const double p0 = of.power[0][k], p1 = of.power[1][k], p2 = of.power[2][k];
     const double r0 = std::sqrt(p0), r1 = std::sqrt(p1), r2 = std::sqrt(p2), roots = r0 + r1 + r2;
     const double made = (of.intensity[0][k] / r0 + of.intensity[1][k] / r1 + of.intensity[2][k] / r2) / roots;
-    const double from = roots * roots / (p0 + p1 + p2), to = of.looks[k], variate = made > 1e-300 ? made : 1e-300;
+    const double s01 = of.shared[0][k], s12 = of.shared[1][k];
+    // Fields of p0 and p1 share s01^2 < p0 p1, but for rounding.
+    const double q01 = s01 * s01 < p0 * p1 ? s01 * s01 / (r0 * r1) : r0 * r1,
+                 q12 = s12 * s12 < p1 * p2 ? s12 * s12 / (r1 * r2) : r1 * r2;
+    const double from = roots * roots / (p0 + p1 + p2 + 2 * (q01 + q12)), to = of.looks[k],
+                 variate = made > 1e-300 ? made : 1e-300;
     const double third = vec::exp(vec::log(variate) * (1.0 / 3));
     const double root = 1 - 1 / (9 * to) + std::sqrt(from / to) * (third - 1 + 1 / (9 * from));
     drawn[k] = of.strong[k] + of.mean[k] * (root > 0 ? root * root * root : 0);

@@ -79,6 +79,7 @@ void DisplayPlan::fill_neighbours() {
   const double likeness = mean_over_ranges(*this, cell_length, of_ground) / mean_over_ranges(*this, 0, of_ground);
   // The last field of a cell is one of so many looks. Ground shares as much through echoes of both cells.
   const double parts = static_cast<double>(field_parts);
+  fields = FieldShares(likeness);
   if (likeness > least_likeness) noise_of_next = std::min(1.0, std::sqrt(likeness * parts));  // (E224)
 }
 
