@@ -12,17 +12,17 @@
 
 namespace insonify {
 
-/// Echoes of random amplitude, and the pieces of surface that they stand for. One entry per echo in every array. A
-/// surface may have several echoes, which carry its speckle; one of them has the energy of all. Both senses of a path
-/// are two echoes of one id, which add up as pressures: an entry of id `of_both` behind them is what that adds to their
-/// energy (E190), and has no pressure of its own.
 /// The piece of surface that an echo is of, as a disc: by how much range [m] and u change from its middle to its edge, along
-/// two axes that stand with the surface. All 0: a point.
+/// two axes at right angles that stand with the surface. All 0: a point.
 struct EchoDisc {
   float range[2] = {0, 0}, u[2] = {0, 0};
   bool is_point() const { return range[0] == 0 && range[1] == 0 && u[0] == 0 && u[1] == 0; }
 };
 
+/// Echoes of random amplitude, and the pieces of surface that they stand for. One entry per echo in every array. A
+/// surface may have several echoes, which carry its speckle; one of them has the energy of all. Both senses of a path
+/// are two echoes of one id, which add up as pressures: an entry of id `of_both` behind them is what that adds to their
+/// energy (E190), and has no pressure of its own.
 struct SurfaceEchoes {
   static constexpr std::uint64_t of_both = 0xffffffffffffffff;
 
@@ -34,7 +34,7 @@ struct SurfaceEchoes {
   /// How u changes along a tilted surface with range [1/m], and its half extent in u at one range, of the first echoes
   /// (E189); the others are as wide at each of their ranges.
   std::vector<float> slope{}, across{};
-  std::vector<EchoDisc> disc{};
+  std::vector<EchoDisc> disc{};  ///< discs of the first echoes, which carry their speckle (E228); the others are points
 };
 
 /// Options of synthesize_cells.
@@ -69,8 +69,8 @@ struct CellLabels {
 /// The expected intensity is the sum of the energies of the echoes, times the pattern of the beam, averaged over the
 /// band (E181). The number of looks of a cell follows from the ranges of its energy, from the pulse and from the noise
 /// (E182, E223, E226). Speckle is a gamma variate of so many looks that is made from three complex sums, over the echoes of
-/// thirds of its ranges, with their phases and with random amplitudes of their own, so that it stays with the surface and
-/// changes with the pose as that of samples does (E183). Echoes that hold more than a tenth of a cell are added to it as pressures (E184), and so are `fixed` ones, whose
+/// thirds of its ranges, with their phases and random amplitudes, so that it stays with the surface and changes with the pose
+/// as that of samples does (E183, E228). Echoes that hold more than a tenth of a cell are added to it as pressures (E184), and so are `fixed` ones, whose
 /// amplitudes are not random.
 ///
 /// Accuracy against cells of true_delays samples (docs/results/display.md): bands of range 0.05 dB, cells 0.3 dB rms in the

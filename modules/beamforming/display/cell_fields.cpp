@@ -18,12 +18,11 @@ std::uint64_t noise_seed(const CellOptions& options) {
   return (options.seed ^ stage_seed) + static_cast<std::uint64_t>(options.ping) * ping_seed;
 }
 
-}  // namespace
-
-bool CellRow::is_strong(const Side& side, std::uint32_t echo) const {
-  const CellEcho* const at = &lists_.echoes[echo];
-  return std::any_of(side.strong.begin(), side.strong.end(), [at](const Piece& piece) { return piece.echo == at; });
+bool is_one_of(const std::vector<std::uint32_t>& ascending, std::uint32_t number) {
+  return !ascending.empty() && std::binary_search(ascending.begin(), ascending.end(), number);
 }
+
+}  // namespace
 
 void CellRow::sum_fields(std::size_t cell, std::size_t s) {
   Side& side = side_[s];
@@ -36,7 +35,7 @@ void CellRow::sum_fields(std::size_t cell, std::size_t s) {
   for (std::uint32_t k = points.first[cell]; k < points.first[cell + 1]; ++k) {
     const FieldPoint& point = points.point[k];
     const float response = row_.response.empty() ? 1 : static_cast<float>(row_.response[point.echo]);
-    if (response == 0 || (!side.strong.empty() && is_strong(side, point.echo))) continue;
+    if (response == 0 || is_one_of(side.strong_numbers, point.echo)) continue;
     const FieldShares::Share& share = plan_.fields.share[point.share];
     const std::complex<float> pressure = response * point.pressure;
     const float square = response * response * point.power, near = square * share.near, far = square * share.far;

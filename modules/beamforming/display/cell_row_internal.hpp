@@ -107,12 +107,13 @@ class CellRow {
   /// One of the two cells: its echoes, and the sums over them.
   struct Side {
     std::vector<Piece> even, strong;  ///< echoes that are part of even ground, and those that are added as pressures
-    double energy = 0;                ///< energy of all echoes [Pa^2]
-    double noise = 0;                 ///< power of the noise in the fields of the beams [Pa^2]
-    std::vector<double> mean;         ///< expected intensity of each beam [Pa^2]
-    std::vector<double> looks;        ///< number of looks at each broad node in use (E182)
-    std::array<Field, field_parts> field;                     ///< sums over echoes at a period of u, with guards (E183)
-    std::array<std::vector<double>, field_parts> power;       ///< their expected power in each beam [Pa^2]
+    std::vector<std::uint32_t> strong_numbers;           ///< numbers of strong echoes of random amplitude, ascending
+    double energy = 0;                                   ///< energy of all echoes [Pa^2]
+    double noise = 0;                                    ///< power of the noise in the fields of the beams [Pa^2]
+    std::vector<double> mean;                            ///< expected intensity of each beam [Pa^2]
+    std::vector<double> looks;                           ///< number of looks at each broad node in use (E182)
+    std::array<Field, field_parts> field;                ///< sums over echoes at a period of u, with guards (E183)
+    std::array<std::vector<double>, field_parts> power;  ///< their expected power in each beam [Pa^2]
     std::array<std::vector<double>, field_parts - 1> shared;  ///< expected product of each with the next [Pa^2]
     std::vector<Field> strong_field;                          ///< field of the strong echoes, by groups that interfere
     std::size_t groups = 0;
@@ -144,9 +145,9 @@ class CellRow {
   void partition_strong(Side& side);
   void sum_strong(Side& side);
   void add_strong(const Piece& piece, std::vector<double>& mean);
-  bool is_strong(const Side& side, std::uint32_t echo) const;
   void sum_fields(std::size_t cell, std::size_t s);
   void sum_powers(std::size_t sides);
+  /// Sums up what field q shares with the next, in beams of both cells.
   void sum_shared(std::size_t q);
   /// Lists the energies of even ground in a cell by broad nodes, over `unit` [Pa^2].
   void list_energies(std::size_t cell, const Side& side, double unit);

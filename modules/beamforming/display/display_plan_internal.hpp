@@ -120,7 +120,7 @@ struct DisplayPlan {
   /// Correlation of ground less that of noise with ground, and less that of noise: means over pairs of ranges of a cell
   /// (E223).
   float noise_with_ground = 0, noise_alone = 0;
-  double cycles_per_metre = 0;  ///< of phase of an echo, for each metre of range
+  double cycles_per_metre = 0;  ///< change of an echo's phase with range [1/m]
   FieldShares fields;
   double noise_of_next =
       0;  ///< part of the noise of a cell's last field that is that of the next, as an amplitude (E224)

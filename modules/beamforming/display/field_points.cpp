@@ -18,8 +18,8 @@ std::complex<float> product(const std::complex<float>& a, const std::complex<flo
 
 }  // namespace
 
-/// Discs of some echoes, and their numbers among those in cells.
-struct FieldPointMaker::Discs {
+/// Discs of some echoes (kernels::Discs), and the numbers of these among those in cells.
+struct FieldPointMaker::DiscList {
   std::vector<std::uint64_t> id;
   std::vector<std::uint32_t> number;
   std::vector<double> place, u, re, im, root;
@@ -35,53 +35,64 @@ FieldPointMaker::FieldPointMaker(const DisplayPlan& plan, const SurfaceEchoes& s
 
 void FieldPointMaker::add(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& slot,
                           UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const {
-  Discs discs;
-  std::vector<std::uint64_t> id;
+  if (!options_.speckle) return;
+  DiscList discs;
   std::vector<std::size_t> single;
-  const double metres_per_s = plan_.pulse.metres_per_s();
-  const auto place_of = [&](std::size_t i) {
-    return (metres_per_s * surface_.echoes.delay[i] - plan_.first_range) * per_cell_length_;
-  };
-  const auto energy_of = [&](std::size_t i) {
-    return plan_.pulse.energy(metres_per_s * surface_.echoes.delay[i]) * per_cell_length_ *
-           std::norm(surface_.echoes.amplitude[i]);
-  };
   for (std::size_t i = begin; i < end; ++i) {
-    const Complex amplitude = surface_.echoes.amplitude[i];
-    if (slot[i] >= echoes.size() || amplitude == Complex(0)) continue;
-    if (i >= surface_.disc.size() || surface_.disc[i].is_point()) {
-      id.push_back(surface_.id[i]), single.push_back(i);
-      continue;
-    }
-    const EchoDisc& disc = surface_.disc[i];
-    const double size = std::abs(amplitude);
-    discs.id.push_back(surface_.id[i]), discs.number.push_back(slot[i]);
-    discs.place.push_back(place_of(i)), discs.u.push_back(surface_.echoes.u[i]);
-    discs.re.push_back(amplitude.real() / size), discs.im.push_back(amplitude.imag() / size);
-    discs.root.push_back(std::sqrt(energy_of(i) / static_cast<double>(kernels::points_of_disc)));
-    for (const std::size_t axis : {0, 1}) {
-      discs.cycles[axis].push_back(plan_.cycles_per_metre * static_cast<double>(disc.range[axis]));
-      discs.to_edge[axis].push_back(static_cast<double>(disc.u[axis]));
-    }
+    if (slot[i] >= echoes.size() || surface_.echoes.amplitude[i] == Complex(0)) continue;
+    if (i < surface_.disc.size() && !surface_.disc[i].is_point())
+      list_disc(i, slot[i], discs);
+    else
+      single.push_back(i);
   }
-  points.reserve(5 * discs.id.size() + 2 * id.size());
+  points.reserve(5 * discs.id.size() + 2 * single.size());
   add_discs(discs, echoes, points);
+  add_single(single, slot, echoes, points);
+}
+
+double FieldPointMaker::place_of(std::size_t i) const {
+  return (plan_.pulse.metres_per_s() * surface_.echoes.delay[i] - plan_.first_range) * per_cell_length_;
+}
+
+double FieldPointMaker::energy_of(std::size_t i) const {
+  return plan_.pulse.energy(plan_.pulse.metres_per_s() * surface_.echoes.delay[i]) * per_cell_length_ *
+         std::norm(surface_.echoes.amplitude[i]);
+}
+
+void FieldPointMaker::list_disc(std::size_t i, std::uint32_t number, DiscList& discs) const {
+  const Complex amplitude = surface_.echoes.amplitude[i];
+  const double size = std::abs(amplitude);
+  discs.id.push_back(surface_.id[i]), discs.number.push_back(number);
+  discs.place.push_back(place_of(i)), discs.u.push_back(surface_.echoes.u[i]);
+  discs.re.push_back(amplitude.real() / size), discs.im.push_back(amplitude.imag() / size);
+  discs.root.push_back(std::sqrt(energy_of(i) / static_cast<double>(kernels::points_of_disc)));
+  for (const std::size_t axis : {0, 1}) {
+    discs.cycles[axis].push_back(plan_.cycles_per_metre * static_cast<double>(surface_.disc[i].range[axis]));
+    discs.to_edge[axis].push_back(static_cast<double>(surface_.disc[i].u[axis]));
+  }
+}
+
+void FieldPointMaker::add_single(const std::vector<std::size_t>& single, const std::vector<std::uint32_t>& slot,
+                                 UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const {
+  std::vector<std::uint64_t> id;
+  for (const std::size_t i : single) id.push_back(surface_.id[i]);
   std::vector<double> re(id.size()), im(id.size());
   random_amplitudes(options_.seed, id, re.data(), im.data());  // (E9)
   for (std::size_t k = 0; k < id.size(); ++k) {
     const std::size_t i = single[k];
     const Complex amplitude = surface_.echoes.amplitude[i];
-    const double energy = energy_of(i);
+    const auto energy = static_cast<float>(energy_of(i));
     std::complex<float>& pressure = echoes[slot[i]].pressure;
-    // What both senses of a path add to its energy has no pressure of its own (E190).
-    if (id[k] != surface_.of_both)
+    // An entry for what both senses of a path add has no pressure of its own (E190).
+    if (id[k] != SurfaceEchoes::of_both)
       pressure = std::complex<float>(amplitude / std::abs(amplitude) * Complex(re[k], im[k]));
-    add_point(static_cast<float>(place_of(i)), plan_.node_of(surface_.echoes.u[i]),
-              static_cast<float>(std::sqrt(energy)) * pressure, static_cast<float>(energy), slot[i], points);
+    add_point(static_cast<float>(place_of(i)), plan_.node_of(surface_.echoes.u[i]), std::sqrt(energy) * pressure,
+              energy, slot[i], points);
   }
 }
 
-void FieldPointMaker::add_discs(const Discs& discs, UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const {
+void FieldPointMaker::add_discs(const DiscList& discs, UninitializedVector<CellEcho>& echoes,
+                                PlacedPoints& points) const {
   const std::size_t count = discs.id.size();
   std::array<std::vector<float>, kernels::points_of_disc> re, im, place;
   std::array<std::vector<std::int32_t>, kernels::points_of_disc> node;
@@ -104,6 +115,7 @@ void FieldPointMaker::add_discs(const Discs& discs, UninitializedVector<CellEcho
                       count, to);
   for (std::size_t k = 0; k < count; ++k) {
     const auto root = static_cast<float>(discs.root[k]), power = root * root;
+    if (!(root > 0)) continue;
     std::complex<float> sum = 0;
     for (std::size_t point = 0; point < kernels::points_of_disc; ++point) {
       const std::complex<float> pressure(re[point][k], im[point][k]);

@@ -19,7 +19,7 @@ struct PlacedPoint {
 /// Points of some echoes; those beside an edge of a cell stand for each of two.
 using PlacedPoints = UninitializedVector<PlacedPoint>;
 
-/// Makes the points of which the fields of cells are the sums (E183, E228).
+/// Makes the points of which the fields of cells are the sums: one of an echo, or those of its disc (E183, E228).
 class FieldPointMaker {
  public:
   /// Keeps references to all arguments, which must outlive it.
@@ -31,9 +31,17 @@ class FieldPointMaker {
            UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const;
 
  private:
-  struct Discs;
+  struct DiscList;
 
-  void add_discs(const Discs& discs, UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const;
+  /// Place of echo i [cells], and its energy in a cell that holds all of it [Pa^2].
+  double place_of(std::size_t i) const;
+  double energy_of(std::size_t i) const;
+  void list_disc(std::size_t i, std::uint32_t number, DiscList& discs) const;
+  void add_discs(const DiscList& discs, UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const;
+  /// Adds echoes that are points.
+  void add_single(const std::vector<std::size_t>& single, const std::vector<std::uint32_t>& slot,
+                  UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const;
+  /// Adds a point at a place [cells] to its cell, and to the one beside it if it is near the edge.
   void add_point(float place, std::size_t node, const std::complex<float>& pressure, float power, std::uint32_t number,
                  PlacedPoints& points) const;
 
@@ -41,7 +49,7 @@ class FieldPointMaker {
   const SurfaceEchoes& surface_;
   const CellOptions& options_;
   double per_cell_length_;
-  float edge_;
+  float edge_;  ///< half the way from a cell to the next [cells]
 };
 
 /// Returns the points of all blocks by cell, each cell's in the order of the blocks.

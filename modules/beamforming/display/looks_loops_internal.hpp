@@ -81,8 +81,8 @@ void draw_discs(std::uint64_t seed, const std::uint64_t* id, const Discs& discs,
 /// Parts of a cell's ranges, each with a field of its own (E183).
 constexpr std::size_t field_parts = 3;
 
-/// Even ground in beams: the intensities of its fields and their expected powers, the number of looks that it shall have,
-/// the mean intensity, and the intensity of what stands out.
+/// Even ground in beams: the intensities of its fields and their expected powers, the expected product of each field with the
+/// next, the number of looks that it shall have, the mean intensity, and the intensity of what stands out.
 struct EvenGround {
   std::array<const double*, field_parts> intensity, power;
   std::array<const double*, field_parts - 1> shared;

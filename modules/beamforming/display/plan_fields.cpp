@@ -17,8 +17,8 @@ constexpr double least_edge = 1.0 / 32;    // half the way from one cell to the 
 
 FieldShares::FieldShares(double likeness) {
   const double parts = static_cast<double>(field_parts), shared = shared_by_hats * shared_by_hats;
-  // Of cells side by side the outer fields share echoes.
-  const double squares = parts + 2 * (parts - 1) * shared;  // of the correlations of a cell's fields
+  // Outer fields of cells side by side share echoes.
+  const double squares = parts + 2 * (parts - 1) * shared;  // sum over pairs of a cell's fields of their correlations
   edge = std::clamp(std::sqrt(likeness * squares / shared) / (2 * parts), least_edge, 0.5 / parts);
   per_cell = static_cast<float>(steps_of_cell);
   // One step more at both ends, for rounding.

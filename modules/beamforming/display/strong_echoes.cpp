@@ -40,6 +40,11 @@ void CellRow::partition_strong(Side& side) {
   const auto first = std::stable_partition(found, side.even.end(), [&](auto& p) { return !strong(p); });
   side.strong.assign(first, side.even.end());
   side.even.erase(first, side.even.end());
+  side.strong_numbers.clear();
+  for (const Piece& piece : side.strong)
+    if (piece.echo->together > 0)
+      side.strong_numbers.push_back(static_cast<std::uint32_t>(piece.echo - lists_.echoes.data()));
+  std::sort(side.strong_numbers.begin(), side.strong_numbers.end());
 }
 
 void CellRow::sum_strong(Side& side) {

@@ -3,7 +3,7 @@
 // (docs/results/display.md):
 //   display_accuracy scenes [SEEDS [SCENE|SONAR]]  level, contrast and likeness, by scene and head, with noise (64 seeds)
 //   display_accuracy cells [SEEDS [PICTURE.png]]   error and CPU time by number of cells (12 seeds)
-//   display_accuracy motion           how alike images are after a move
+//   display_accuracy motion [PAIRS [SCENE|SONAR]]  how alike images are after a move (12 pairs)
 //   display_accuracy paths [SEEDS]    levels of echoes by way of other surfaces (8 seeds)
 #include <algorithm>
 #include <cstdio>
@@ -40,10 +40,16 @@ void print_likeness(const Likeness& drawn, const Likeness& samples) {
   std::printf(" | %.2f / %.2f |", drawn.next_cell, samples.next_cell);
 }
 
+/// A head with 100 cells at 3 to 8 m in one of the scenes that are compared.
+Rig rig_of(const View& view, const char* sonar, bool noise) {
+  Rig rig{PreparedScene(scene_of(view, view.points)), head_of(sonar, 3, 8), 100, noise};
+  if (view.scene == "reef in a tank") rig.environment = tank(), rig.effects.mirrors = Choice::always;
+  return rig;
+}
+
 /// Prints a row of print_scenes.
 void print_scene(const View& view, const char* sonar, int seeds) {
-  Rig rig{PreparedScene(scene_of(view, view.points)), head_of(sonar, 3, 8), 100, true};
-  if (view.scene == "reef in a tank") rig.environment = tank(), rig.effects.mirrors = Choice::always;
+  const Rig rig = rig_of(view, sonar, true);
   const Moments a = moments_of(rig, false, view.pose(), seeds, Images::kept),
                 b = moments_of(rig, true, view.pose(), seeds, Images::kept);
   const Difference d = difference(a, b, seeds);
@@ -66,7 +72,7 @@ void print_scenes(int seeds, const std::string& only) {
       "samples | in the middle half of the beams | beams 1, 2, 3, 4 apart | next cell | beams of the middle half | "
       "next cell there | KS distance | CPU [s] |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
-  for (const View& view : views)
+  for (const View& view : compared_views())
     for (const char* sonar :
          {"oculus-m750d", "p900-45", "gemini-720is", "gemini-1200ik-hf", "m900-130", "oculus-m1200d"})
       if (only.empty() || only == view.scene || only == sonar) print_scene(view, sonar, seeds);
@@ -120,24 +126,45 @@ void print_cells(int seeds, const std::string& picture) {
   if (!picture.empty()) draw_curve(curve, picture);
 }
 
-void print_motion() {
-  std::puts("| correlation after | drawn | samples |");
-  std::puts("|---|---|---|");
-  const View& view = view_of("harbour");
-  const Rig rig{PreparedScene(scene_of(view, view.points)), head_of("oculus-m750d", 0.1, 30), 600, false};
-  const Moments a = moments_of(rig, false, view.pose(), 12), b = moments_of(rig, true, view.pose(), 12);
-  const struct {
-    const char* name;
-    Pose pose;
-  } moves[] = {{"1 cm aside", view.pose(0, 0.01)}, {"3 cm aside", view.pose(0, 0.03)},
-               {"10 cm aside", view.pose(0, 0.1)}, {"1 cm ahead", view.pose(0.01)},
-               {"3 cm ahead", view.pose(0.03)},    {"0.1 deg of yaw", view.pose(0, 0, 0.1)}};
-  for (const auto& [name, pose] : moves) {
-    const auto alike = [&](bool phases, const Grid<double>& mean) {
-      return correlation(rig.ping(phases, 100, view.pose()).intensity, rig.ping(phases, 100, pose).intensity, mean);
-    };
-    std::printf("| %s | %.2f | %.2f |\n", name, alike(false, a.mean), alike(true, b.mean));
+/// Prints a row of print_motion.
+void print_moves(const View& view, const char* sonar, int pairs) {
+  const double moves[][3] = {{0, 0.01, 0}, {0, 0.03, 0}, {0, 0.1, 0}, {0.01, 0, 0},
+                             {0.03, 0, 0}, {0.1, 0, 0},  {0, 0, 0.1}};  // ahead and aside [m], turn [deg]
+  constexpr std::size_t count = std::size(moves);
+  const Rig rig = rig_of(view, sonar, false);
+  if (view.scene == "harbour") pairs *= 4;  // a quarter of its cells hear the bed
+  Changes changes[2][count];
+  for (const bool phases : {false, true})
+    for (int seed = 1; seed <= pairs; ++seed) {
+      const auto image = [&](const Pose& pose) {
+        return rig.ping(phases, static_cast<std::uint64_t>(seed), pose).intensity;
+      };
+      const Grid<double> before = image(view.pose());
+      for (std::size_t k = 0; k < count; ++k)
+        changes[phases ? 1 : 0][k].add(before, image(view.pose(moves[k][0], moves[k][1], moves[k][2])));
+    }
+  std::printf("| %s | %s |", view.scene.c_str(), sonar);
+  double off[2] = {0, 0};
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto after = [&](int phases, Beams among) { return changes[phases][k].correlation(among); };
+    std::printf(" %.2f / %.2f |", after(0, Beams::middle_half), after(1, Beams::middle_half));
+    for (const Beams among : {Beams::middle_half, Beams::all}) {
+      double& most = off[among == Beams::all ? 1 : 0];
+      most = std::max(most, std::abs(after(0, among) - after(1, among)));
+    }
   }
+  std::printf(" %.2f | %.2f |\n", off[0], off[1]);
+  std::fflush(stdout);
+}
+
+void print_motion(int pairs, const std::string& only) {
+  std::puts(
+      "| scene | sonar | 1 cm aside | 3 cm | 10 cm | 1 cm ahead | 3 cm | 10 cm | 0.1 deg of yaw | most apart | of all "
+      "beams |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|");
+  for (const View& view : compared_views())
+    for (const char* sonar : {"oculus-m750d", "p900-45", "gemini-1200ik-hf"})
+      if (only.empty() || only == view.scene || only == sonar) print_moves(view, sonar, pairs);
 }
 
 /// Prints a row of print_paths.
@@ -178,7 +205,7 @@ int main(int argc, char** argv) {
   if (table == "cells")
     print_cells(argc > 2 ? seeds : 12, argc > 3 ? argv[3] : "");
   else if (table == "motion")
-    print_motion();
+    print_motion(argc > 2 ? seeds : 12, argc > 3 ? argv[3] : "");
   else if (table == "paths")
     print_paths(argc > 2 ? seeds : 8);
   else

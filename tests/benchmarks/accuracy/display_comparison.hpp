@@ -173,6 +173,33 @@ double correlation(const Grid<Number>& a, const Grid<Number>& b, const Grid<doub
   return ab / std::sqrt(aa * bb);
 }
 
+/// Correlation of images before and after a change, over the seeds of each cell.
+class Changes {
+ public:
+  void add(const Grid<double>& before, const Grid<double>& after) {
+    if (count_ == 0) a_ = b_ = aa_ = bb_ = ab_ = Grid<double>::Zero(before.rows(), before.cols());
+    a_ += before, b_ += after, aa_ += before.square(), bb_ += after.square(), ab_ += before * after, ++count_;
+  }
+  /// Returns the correlation, each cell relative to its means, over cells within 40 dB of the strongest.
+  double correlation(Beams among) const {
+    double ab = 0, aa = 0, bb = 0;
+    const double least = 1e-4 * a_.maxCoeff();
+    const Eigen::Index beside = among == Beams::all ? 0 : a_.rows() / 4;
+    for (Eigen::Index i = beside; i < a_.rows() - beside; ++i)
+      for (Eigen::Index j = 0; j < a_.cols(); ++j) {
+        const double a = a_(i, j), b = b_(i, j);
+        if (a < least || b < least) continue;
+        ab += count_ * ab_(i, j) / (a * b) - 1, aa += count_ * aa_(i, j) / (a * a) - 1;
+        bb += count_ * bb_(i, j) / (b * b) - 1;
+      }
+    return ab / std::sqrt(aa * bb);
+  }
+
+ private:
+  double count_ = 0;
+  Grid<double> a_, b_, aa_, bb_, ab_;
+};
+
 /// Largest distance between the distributions of two samples (Kolmogorov and Smirnov).
 inline double largest_distance(std::vector<double> a, std::vector<double> b) {
   std::sort(a.begin(), a.end()), std::sort(b.begin(), b.end());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "acoustics/environment.hpp"
@@ -32,6 +33,8 @@ inline const View views[] = {{"harbour", 0, -2, 15},
                              {"two facets on a plane", 0, 1.5, 12},
                              {"plane", -5, 2.5, 20},
                              {"sphere", 0, 0.3, 3}};
+/// The first of them, which tables compare by sonar.
+inline std::span<const View> compared_views() { return std::span(views).first(8); }
 inline const View& view_of(std::string_view scene) {
   return *std::find_if(std::begin(views), std::end(views), [&](const View& v) { return v.scene == scene; });
 }
