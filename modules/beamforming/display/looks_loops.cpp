@@ -182,6 +182,8 @@ INSONIFY_CLONES void draw_normals(std::uint64_t seed, const std::uint64_t* id, s
   }
 }
 
+constexpr double place_of_point = 0.70710678118654752;  // distance from the middle of a disc, in its radius
+
 INSONIFY_CLONES void draw_discs(std::uint64_t seed, const std::uint64_t* id, const Discs& discs, std::size_t count,
                                 const DiscPoints& points) {
   const std::uint64_t stream = mixed(seed + golden);
@@ -192,7 +194,7 @@ INSONIFY_CLONES void draw_discs(std::uint64_t seed, const std::uint64_t* id, con
     const std::uint64_t first = mixed(stream ^ (id[k] * golden));
     double x, y;
     vec::sine_cosine(uniform(mixed(first + golden)), y, x);
-    x *= 0.70710678118654752, y *= 0.70710678118654752;
+    x *= place_of_point, y *= place_of_point;
     const double cycles[] = {x * of.cycles[0][k] + y * of.cycles[1][k], x * of.cycles[1][k] - y * of.cycles[0][k]};
     const double in_u[] = {x * of.to_edge[0][k] + y * of.to_edge[1][k], x * of.to_edge[1][k] - y * of.to_edge[0][k]};
 #pragma GCC unroll 4
@@ -220,8 +222,8 @@ INSONIFY_CLONES void draw_looks(const EvenGround& ground, std::size_t count, dou
     const double p0 = of.power[0][k], p1 = of.power[1][k], p2 = of.power[2][k];
     const double r0 = std::sqrt(p0), r1 = std::sqrt(p1), r2 = std::sqrt(p2), roots = r0 + r1 + r2;
     const double made = (of.intensity[0][k] / r0 + of.intensity[1][k] / r1 + of.intensity[2][k] / r2) / roots;
+    // Fields of powers p0 and p1 share s01 with s01^2 < p0 p1, but for rounding.
     const double s01 = of.shared[0][k], s12 = of.shared[1][k];
-    // Fields of p0 and p1 share s01^2 < p0 p1, but for rounding.
     const double q01 = s01 * s01 < p0 * p1 ? s01 * s01 / (r0 * r1) : r0 * r1,
                  q12 = s12 * s12 < p1 * p2 ? s12 * s12 / (r1 * r2) : r1 * r2;
     const double from = roots * roots / (p0 + p1 + p2 + 2 * (q01 + q12)), to = of.looks[k],
