@@ -16,6 +16,7 @@ namespace insonify {
 /// two axes at right angles that stand with the surface. All 0: a point.
 struct EchoDisc {
   float range[2] = {0, 0}, u[2] = {0, 0};
+  bool two_rings = false;  ///< true: it is drawn as two rings of four points; else as one
   /// Returns true if nothing changes from the middle to the edge.
   bool is_point() const { return range[0] == 0 && range[1] == 0 && u[0] == 0 && u[1] == 0; }
 };

@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t patches_at_once = 4096;
 constexpr double least_cosine = 1e-3;
 constexpr double least_part_of_cell = 0.125;  // area of a patch from which on it is a disc; samples split it
+constexpr double two_rings_of_cell = 1.1;     // the same from which on a disc is two rings of points
 constexpr double least_tilt = 1e-6;           // square of the sine from which on a plane has ranges
 constexpr double no_noise_db = -std::numeric_limits<double>::infinity();
 
@@ -80,6 +81,8 @@ void CellSum::add_direct(const SceneCloud& scene, const Scatterers& patches, con
   const DiscMaker discs(scene, to_head);
   const BeamFan& fan = ping_.head.fan;
   const SampledCells cells(fan, ping_.head.gate, ping_.view.sampling);
+  double widest = 0;  // largest u of a beam
+  for (const double azimuth : fan.azimuth) widest = std::max(widest, std::abs(std::sin(azimuth)));
   append(all_.echoes, echoes);
   if (ping_.options.outputs.labels) surfel_ = patches.surfel;
   all_.id.insert(all_.id.end(), patches.id.begin(), patches.id.end());
@@ -96,8 +99,11 @@ void CellSum::add_direct(const SceneCloud& scene, const Scatterers& patches, con
       const double ahead = std::sqrt(std::max(0.0, 1 - u * u - v * v));
       const Eigen::Vector3d direction(std::abs(patches.azimuth[i]) > 0.5 * pi ? -ahead : ahead, u, v);
       const double patch = static_cast<double>(patches.projected_area[i]) / cosine;
-      if (patch > least_part_of_cell * cells.area(range, cosine, {fan.beam_width, fan.row_width}))
+      const double cell = cells.area(range, cosine, {fan.beam_width, fan.row_width});
+      if (patch > least_part_of_cell * cell) {
         all_.disc[before + i] = discs.of(surfel, direction, range, std::sqrt(patch / pi));
+        all_.disc[before + i].two_rings = std::abs(u) < widest && patch > two_rings_of_cell * cell;
+      }
 
       // The first patch of a surfel, which is its middle, has the energy of all.
       if (i > 0 && patches.surfel[i - 1] == surfel) continue;

@@ -68,20 +68,24 @@ TEST(DisplayCells, looks_of_even_ground_are_those_of_the_pulse) {
   EXPECT_NEAR(std::sqrt(square * n / (mean * mean) - 1), 1 / std::sqrt(looks), 0.06 / std::sqrt(looks));
 }
 
+// As a point, and as a disc of one ring of points and of two (E228).
 TEST(DisplayCells, an_echo_alone_is_exponential) {
   const SonarHead head = cells_head(samples_head(), 5);
   SurfaceEchoes one = even_ground(1);
   one.echoes.u[0] = 0, one.echoes.delay[0] = 2 * 2.5 / lossy.sound_speed;
   const double expected = synthesize_cells(one, {}, head, lossy, {.speckle = false})(4, 2);
-  double sum = 0, square = 0;
-  constexpr int seeds = 1500;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    const double i =
-        synthesize_cells(one, {}, head, lossy, {.seed = static_cast<std::uint64_t>(seed)})(4, 2) / expected;
-    sum += i, square += i * i;
+  for (const int rings : {0, 1, 2}) {
+    if (rings > 0) one.disc = {{{0.01f, 0.002f}, {0.01f, 0}, rings == 2}};
+    double sum = 0, square = 0;
+    constexpr int seeds = 1500;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const double i =
+          synthesize_cells(one, {}, head, lossy, {.seed = static_cast<std::uint64_t>(seed)})(4, 2) / expected;
+      sum += i, square += i * i;
+    }
+    EXPECT_NEAR(sum / seeds, 1, 0.1) << rings;
+    EXPECT_NEAR(square / seeds, 2, 0.5) << rings;
   }
-  EXPECT_NEAR(sum / seeds, 1, 0.1);
-  EXPECT_NEAR(square / seeds, 2, 0.5);
 }
 
 /// Returns even ground with two facets in each of five cells, with 45 and 25 % of the middle beam's energy there.

@@ -10,6 +10,9 @@
 namespace insonify {
 namespace {
 
+constexpr std::uint64_t other_ring = 0xd6e8feb86659fd93;                              // difference of its id, odd
+constexpr double inner_ring = 0.70710678118654752, outer_ring = 1.22474487139158905;  // radii, in that of a single ring
+
 using Complex = std::complex<double>;
 
 std::complex<float> product(const std::complex<float>& a, const std::complex<float>& b) {
@@ -22,6 +25,7 @@ std::complex<float> product(const std::complex<float>& a, const std::complex<flo
 struct FieldPointMaker::DiscList {
   std::vector<std::uint64_t> id;
   std::vector<std::uint32_t> number;
+  std::vector<float> part;  // of the energy of its echo in each point
   std::vector<double> place, u, re, im, root;
   std::array<std::vector<double>, 2> cycles, to_edge;
 };
@@ -61,15 +65,23 @@ double FieldPointMaker::energy_of(std::size_t i) const {
 
 void FieldPointMaker::list_disc(std::size_t i, std::uint32_t number, DiscList& discs) const {
   const Complex amplitude = surface_.echoes.amplitude[i];
-  const double size = std::abs(amplitude);
-  discs.id.push_back(surface_.id[i]), discs.number.push_back(number);
-  discs.place.push_back(place_of(i)), discs.u.push_back(surface_.echoes.u[i]);
-  discs.re.push_back(amplitude.real() / size), discs.im.push_back(amplitude.imag() / size);
-  discs.root.push_back(std::sqrt(energy_of(i) / static_cast<double>(kernels::points_of_disc)));
-  for (const std::size_t axis : {0, 1}) {
-    discs.cycles[axis].push_back(plan_.cycles_per_metre * static_cast<double>(surface_.disc[i].range[axis]));
-    discs.to_edge[axis].push_back(static_cast<double>(surface_.disc[i].u[axis]));
-  }
+  const EchoDisc& disc = surface_.disc[i];
+  const double per_size = 1 / std::abs(amplitude), place = place_of(i), energy = energy_of(i);
+  const auto add_ring = [&](std::uint64_t id, double radius, double part) {
+    discs.id.push_back(id), discs.number.push_back(number);
+    discs.place.push_back(place), discs.u.push_back(surface_.echoes.u[i]);
+    discs.re.push_back(amplitude.real() * per_size), discs.im.push_back(amplitude.imag() * per_size);
+    discs.root.push_back(std::sqrt(part * energy)), discs.part.push_back(static_cast<float>(part));
+    for (const std::size_t axis : {0, 1}) {
+      discs.cycles[axis].push_back(radius * plan_.cycles_per_metre * static_cast<double>(disc.range[axis]));
+      discs.to_edge[axis].push_back(radius * static_cast<double>(disc.u[axis]));
+    }
+  };
+  constexpr double of_point = 1.0 / static_cast<double>(kernels::points_of_disc);
+  if (!disc.two_rings) return add_ring(surface_.id[i], 1, of_point);
+  // Rings divide the disc into two of equal area.
+  add_ring(surface_.id[i], inner_ring, 0.5 * of_point);
+  add_ring(surface_.id[i] + other_ring, outer_ring, 0.5 * of_point);
 }
 
 void FieldPointMaker::add_single(const std::vector<std::size_t>& single, const std::vector<std::uint32_t>& slot,
@@ -122,7 +134,7 @@ void FieldPointMaker::add_discs(const DiscList& discs, UninitializedVector<CellE
       add_point(place[point][k], static_cast<std::size_t>(node[point][k]), pressure, power, discs.number[k], points);
       sum += pressure;
     }
-    echoes[discs.number[k]].pressure = (1 / (root * std::sqrt(static_cast<float>(kernels::points_of_disc)))) * sum;
+    echoes[discs.number[k]].pressure += (std::sqrt(discs.part[k]) / root) * sum;
   }
 }
 
