@@ -68,7 +68,7 @@ TEST(DisplayCells, looks_of_even_ground_are_those_of_the_pulse) {
   EXPECT_NEAR(std::sqrt(square * n / (mean * mean) - 1), 1 / std::sqrt(looks), 0.06 / std::sqrt(looks));
 }
 
-// As a point, and as a disc of one ring of points and of two (E228).
+// Echoes of a point, of a disc of one ring of points and of one of two rings (E228).
 TEST(DisplayCells, an_echo_alone_is_exponential) {
   const SonarHead head = cells_head(samples_head(), 5);
   SurfaceEchoes one = even_ground(1);
