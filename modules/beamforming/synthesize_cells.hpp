@@ -72,8 +72,8 @@ struct CellLabels {
 /// band (E181). The number of looks of a cell follows from the ranges of its energy, from the pulse and from the noise
 /// (E182, E223, E226). Speckle is a gamma variate of so many looks that is made from three complex sums, over the echoes of
 /// thirds of its ranges, with their phases and random amplitudes, so that it stays with the surface and changes with the pose
-/// as that of samples does (E183, E228). Echoes that hold more than a tenth of a cell are added to it as pressures (E184), and so are `fixed` ones, whose
-/// amplitudes are not random.
+/// as that of samples does (E183, E228). Echoes that hold more than a tenth of a cell are added to it as pressures (E184),
+/// and so are `fixed` ones, whose amplitudes are not random.
 ///
 /// Accuracy against cells of true_delays samples (docs/results/display.md): bands of range 0.05 dB, cells 0.3 dB rms in the
 /// mean; contrast 5 %. Doppler shifts are ignored. Throws Error for an

@@ -15,10 +15,10 @@
 namespace insonify {
 namespace {
 
-constexpr double nearest_range = 0.1;                 // [m]: spreading would have no bound nearer by
-constexpr double nothing_db = -400;                   // a pattern's level that is nothing
-constexpr double scatterers_per_display_cell = 0.75;  // wide ones are drawn as four points each (E228)
-constexpr double rounding = 1.001;                    // of the ball that holds all paths
+constexpr double nearest_range = 0.1;                 // range [m] nearer than which spreading has no bound
+constexpr double nothing_db = -400;                   // level of a pattern [dB] that is nothing
+constexpr double scatterers_per_display_cell = 0.75;  // patches in a cell; wide ones are drawn as points (E228)
+constexpr double rounding = 1.001;                    // factor of the radius of the ball that holds all paths
 
 EchoOptions echo_options_of(const SonarHead& head, const SimulationOptions& o) {
   EchoOptions echoes;

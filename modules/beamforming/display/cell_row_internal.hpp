@@ -49,9 +49,9 @@ struct EchoInCell {
 
 /// A point of the surface of an echo, as the fields of a cell take it (E183).
 struct FieldPoint {
-  std::complex<float> pressure;  ///< at the middle of the array [Pa]
-  float power;                   ///< its expected square [Pa^2]
-  std::uint32_t node;            ///< among those of a period of u
+  std::complex<float> pressure;  ///< pressure at the middle of the array [Pa]
+  float power;                   ///< expected square of the pressure [Pa^2]
+  std::uint32_t node;            ///< number of its node in a period of u
   std::uint32_t share;           ///< index in DisplayPlan::fields of its place in the cell
   std::uint32_t echo;            ///< number of its echo
 };

@@ -39,9 +39,9 @@ struct FieldShares {
     const float step = (place + static_cast<float>(edge)) * per_cell + 1;
     return static_cast<std::uint32_t>(std::clamp(step, 0.f, static_cast<float>(share.size() - 1)));
   }
-  double edge = 0;  ///< [cells]
-  float per_cell = 0;
-  std::vector<Share> share{};
+  double edge = 0;             ///< half the way from a cell to the next [cells]
+  float per_cell = 0;          ///< steps of the table in a cell
+  std::vector<Share> share{};  ///< amplitudes by place, from `edge` before a cell to `edge` behind it
 };
 
 /// Positions among samples of fields, and of powers. A period has four times as many samples as fields vary with, and

@@ -25,7 +25,7 @@ std::complex<float> product(const std::complex<float>& a, const std::complex<flo
 struct FieldPointMaker::DiscList {
   std::vector<std::uint64_t> id;
   std::vector<std::uint32_t> number;
-  std::vector<float> part;  // of the energy of its echo in each point
+  std::vector<float> part;  // energy of a point, in that of its echo
   std::vector<double> place, u, re, im, root;
   std::array<std::vector<double>, 2> cycles, to_edge;
 };
