@@ -127,6 +127,30 @@ TEST(DisplayCells, of_two_bright_facets_are_dark_as_often_as_those_of_samples) {
   EXPECT_NEAR(of_drawn, of_samples, 0.02);
 }
 
+// Samples have a piece of surface at its middle. So has the drawn image what is added as a pressure: beams beside it hear as
+// little of it, though the piece is as wide as a beam. Its mean as a box would be 2 to 6 dB louder there.
+TEST(DisplayCells, a_bright_piece_beside_a_beam_is_as_quiet_as_that_of_samples) {
+  const SonarHead samples =
+      line_head({.beams = 65, .elements = 32, .field_of_view_deg = 10, .min_range = 2, .max_range = 3});
+  const SonarHead head = cells_head(samples, 5);
+  SurfaceEchoes s = even_ground(8000);
+  const double range = head.gate.centre(2);
+  s.echoes.delay.push_back(2 * range / lossless.sound_speed), s.echoes.u.push_back(0.003);
+  s.echoes.amplitude.push_back(std::polar(300.0, 4 * pi * range * centre / lossless.sound_speed));
+  s.id.push_back(s.id.size()), s.power.push_back(9e4), s.depth.push_back(0), s.width.push_back(0.03f);
+  Grid<double> mean[2] = {Grid<double>::Zero(65, 5), Grid<double>::Zero(65, 5)};
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const ComplexGrid p = synthesize(drawn(s, seed), samples, lossless, SynthesisMethod::gridded);
+    mean[0] += mean_over_cells(p.abs2(), samples.gate, head.gate);
+    mean[1] += synthesize_cells(s, {}, head, lossless, {.seed = seed});
+  }
+  // Both share the amplitude of the piece, but not the speckle of the ground that it stands on.
+  for (Eigen::Index beam = 0; beam < 65; ++beam)
+    EXPECT_NEAR(db_from_power(mean[1](beam, 2) / mean[0](beam, 2)), 0,
+                mean[0](beam, 2) > 3e-2 * mean[0].maxCoeff() ? 0.3 : 2)
+        << beam;
+}
+
 TEST(DisplayCells, fixed_echoes_add_up_as_pressures) {
   const SonarHead head = cells_head(samples_head(), 5);
   const auto fixed = [&](std::complex<double> more) {

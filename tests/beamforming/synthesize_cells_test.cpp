@@ -145,6 +145,30 @@ TEST(DisplayCells, surfaces_are_spread_over_their_extent) {
   EXPECT_LT(worst_db(a.block(4, 8, 2, 5), b.block(4, 8, 2, 5)), 0.5);
 }
 
+// A surface about as wide as a beam, at places all over a node of u: beams on its flank hear as much of it as of its
+// points.
+TEST(DisplayCells, surfaces_of_a_beam_have_their_own_width) {
+  const SonarHead head =
+      cells_head(line_head({.beams = 17, .elements = 32, .field_of_view_deg = 10, .min_range = 2, .max_range = 3}), 5);
+  constexpr int places = 32;
+  constexpr double step = 0.0005, half = 0.02;
+  SurfaceEchoes boxes = even_ground(places), points = even_ground(64 * places);
+  for (std::size_t k = 0; k < points.id.size(); ++k) {
+    const std::size_t place = k % places;
+    const double u = step * static_cast<double>(place), part = (static_cast<double>(k / places) + 0.5) / 64;
+    points.echoes.u[k] = u + half * (2 * part - 1), points.echoes.delay[k] = 2 * 2.5 / lossy.sound_speed;
+    points.echoes.amplitude[k] = 0.125;
+    boxes.echoes.u[place] = u, boxes.echoes.delay[place] = points.echoes.delay[k];
+    boxes.width[place] = static_cast<float>(half);
+  }
+  const Grid<double> made = synthesize_cells(boxes, {}, head, lossy, {.speckle = false}),
+                     exact = cells_by_definition(points, head, lossy);
+  for (Eigen::Index beam = 0; beam < 17; ++beam)
+    if (exact(beam, 2) > 1e-2 * exact.maxCoeff()) {
+      EXPECT_NEAR(db_from_power(made(beam, 2) / exact(beam, 2)), 0, 0.05) << beam;
+    }
+}
+
 TEST(DisplayCells, of_a_tilted_surface_each_range_has_its_own_directions) {
   const SonarHead head = cells_head(samples_head(), 20);
   SurfaceEchoes one = even_ground(1), many = even_ground(40000);

@@ -14,6 +14,7 @@ constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo 
 constexpr double rounding = 1e-13;    // part of the louder of two cells that transforms leave in the other
 constexpr double parts_per_node = 4;  // parts of a tilted surface for each node of u along it
 constexpr double least_tilt = 0.25;   // change of u along a surface from which on its parts differ [nodes]
+constexpr double least_of_fields = 0.9;     // of the power of the fields, that even ground beside strong echoes has
 constexpr double least_interference = 0.1;  // of the energy of a look, from which on a strong echo interferes with it
 
 /// Looks at a position between two nodes.
@@ -146,7 +147,8 @@ void CellRow::add_surface(const CellEcho& echo, double energy, const CellEdges::
 }
 
 void CellRow::add_box(double u, double half_width, double energy, double* at) const {
-  const double half = std::max(half_width * plan_.nodes_per_u, 0.5);
+  // The kernel takes away the variance of two boxes of a node: that of nodes, and one that is added here.
+  const double half = std::sqrt(std::pow(half_width * plan_.nodes_per_u, 2) + 0.25);
   const double position = std::clamp((u + 1) * plan_.nodes_per_u, 0.0, static_cast<double>(plan_.nodes));
   const double low = std::max(position - half, -0.5) + 1,
                high = std::min(position + half, static_cast<double>(plan_.nodes) + 0.5) + 1;
@@ -221,7 +223,11 @@ void CellRow::sum_means(std::size_t cell, bool with_water) {
 }
 
 double CellRow::heard_of(const Piece& piece, std::size_t beam) const {
-  return piece.energy * plan_.response.intensity(static_cast<double>(piece.echo->u) - beams_.u_beam[beam]);
+  // Mean over a box by three points (Gauss and Legendre).
+  const double away = static_cast<double>(piece.echo->u) - beams_.u_beam[beam],
+               apart = std::sqrt(0.6) * static_cast<double>(piece.echo->half_width);
+  const auto at = [&](double u) { return plan_.response.intensity(u); };
+  return piece.energy * (8 * at(away) + 5 * (at(away - apart) + at(away + apart))) / 18;
 }
 
 void CellRow::draw(Side& side) {
@@ -240,7 +246,10 @@ void CellRow::draw(Side& side) {
 }
 
 void CellRow::add_groups(std::size_t beam, Side& side) {
-  const double mean = even_.mean[beam], looks = even_.looks[beam];
+  // Where a lobe of strong echoes ends, their energies leave the rest only roughly; the fields have it within a tenth.
+  double fields = -side.noise;
+  for (const auto& power : side.power) fields += power[beam];
+  const double mean = std::max(even_.mean[beam], least_of_fields * fields), looks = even_.looks[beam];
   double strong = 0;
   std::size_t taken = 0;
   for (std::size_t k = 0; k < side.groups; ++k) {
@@ -254,6 +263,7 @@ void CellRow::add_groups(std::size_t beam, Side& side) {
     strong += std::norm(s);  // (E184)
   }
   even_.strong[beam] = strong;
+  even_.mean[beam] = mean;
   if (taken == 0) return;
   // Fields of which no look interferes are left for the rest of the even ground.
   for (std::size_t q = 0; q < std::min(taken, field_parts - 1); ++q)

@@ -138,7 +138,7 @@ class CellRow {
   /// Adds what beams hear of the cells before and behind to spectrum_ (E188).
   void add_cells_beside(std::size_t cell, bool with_water);
   void sum_means(std::size_t cell, bool with_water = true);
-  /// Returns the energy of an echo in a beam, at the centre frequency [Pa^2].
+  /// Returns the mean energy of an echo in a beam, over its extent in u, at the centre frequency [Pa^2].
   double heard_of(const Piece& piece, std::size_t beam) const;
   void form_means(std::size_t cell, std::size_t sides);
   void label(std::size_t cell, Side& side);

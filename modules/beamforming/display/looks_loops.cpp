@@ -214,6 +214,23 @@ INSONIFY_CLONES void draw_discs(std::uint64_t seed, const std::uint64_t* id, con
   }
 }
 
+namespace {
+
+/// Cube root of the weighted sum of the fields' intensities, of mean 1: its mean, 1 over its deviation, and its skewness (E229).
+struct CubeRoot {
+  double mean, per_deviation, skewness;
+};
+/// square   1 / K: sum of the squares of the weights of exponential variates that add up to it
+/// excess   K^2 times the sum of their cubes, less 1: 0 for equal weights
+INSONIFY_ALWAYS_INLINE CubeRoot cube_root_of(double square, double excess) {
+  const double product = square * excess;
+  return {1 + square * (-1.0 / 9 + 0.1504 * product + 0.0046 * square - 0.0356 * excess),
+          (3 + 3.081 * product + 0.0889 * square - 0.8505 * excess) / std::sqrt(square),
+          square * (0.1449 * square + 2.144 * excess)};
+}
+
+}  // namespace
+
 INSONIFY_CLONES void draw_looks(const EvenGround& ground, std::size_t count, double* drawn) {
   const EvenGround of = ground;
   static_assert(field_parts == 3);
@@ -226,11 +243,15 @@ INSONIFY_CLONES void draw_looks(const EvenGround& ground, std::size_t count, dou
     const double s01 = of.shared[0][k], s12 = of.shared[1][k];
     const double q01 = s01 * s01 < p0 * p1 ? s01 * s01 / (r0 * r1) : r0 * r1,
                  q12 = s12 * s12 < p1 * p2 ? s12 * s12 / (r1 * r2) : r1 * r2;
-    const double from = roots * roots / (p0 + p1 + p2 + 2 * (q01 + q12)), to = of.looks[k],
-                 variate = made > 1e-300 ? made : 1e-300;
-    const double third = vec::exp(vec::log(variate) * (1.0 / 3));
-    const double root = 1 - 1 / (9 * to) + std::sqrt(from / to) * (third - 1 + 1 / (9 * from));
-    drawn[k] = of.strong[k] + of.mean[k] * (root > 0 ? root * root * root : 0);
+    const double squares = p0 + p1 + p2 + 2 * (q01 + q12),
+                 cubes = p0 * r0 + p1 * r1 + p2 * r2 + 3 * (q01 * (r0 + r1) + q12 * (r1 + r2));
+    const CubeRoot of_made = cube_root_of(squares / (roots * roots), cubes / squares * (roots / squares) - 1);
+    // The root of a gamma variate of the looks asked for, with the skewness of what is made.
+    const double even = 1 / (3 * std::sqrt(of.looks[k])), deviation = even - even * even * of_made.skewness;
+    const double variate = made > 1e-300 ? made : 1e-300, third = vec::exp(vec::log(variate) * (1.0 / 3));
+    const double root = 1 - deviation * deviation * (1 + deviation * of_made.skewness / 3) +
+                        deviation * of_made.per_deviation * (third - of_made.mean);
+    drawn[k] = of.strong[k] + of.mean[k] * (root > 0 ? root * root * root : 0);  // (E183, E229)
   }
 }
 
