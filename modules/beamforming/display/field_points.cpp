@@ -66,7 +66,7 @@ double FieldPointMaker::energy_of(std::size_t i) const {
 void FieldPointMaker::list_disc(std::size_t i, std::uint32_t number, DiscList& discs) const {
   const Complex amplitude = surface_.echoes.amplitude[i];
   const EchoDisc& disc = surface_.disc[i];
-  const double per_size = 1 / std::abs(amplitude), place = place_of(i), energy = energy_of(i);
+  const double per_size = 1 / std::sqrt(std::norm(amplitude)), place = place_of(i), energy = energy_of(i);
   const auto add_ring = [&](std::uint64_t id, double radius, double part) {
     discs.id.push_back(id), discs.number.push_back(number);
     discs.place.push_back(place), discs.u.push_back(surface_.echoes.u[i]);
@@ -97,7 +97,7 @@ void FieldPointMaker::add_single(const std::vector<std::size_t>& single, const s
     std::complex<float>& pressure = echoes[slot[i]].pressure;
     // An entry for what both senses of a path add has no pressure of its own (E190).
     if (id[k] != SurfaceEchoes::of_both)
-      pressure = std::complex<float>(amplitude / std::abs(amplitude) * Complex(re[k], im[k]));
+      pressure = std::complex<float>(amplitude / std::sqrt(std::norm(amplitude)) * Complex(re[k], im[k]));
     add_point(static_cast<float>(place_of(i)), plan_.node_of(surface_.echoes.u[i]), std::sqrt(energy) * pressure,
               energy, slot[i], points);
   }
