@@ -68,6 +68,72 @@ class DiscMaker {
   std::vector<Eigen::Matrix3f> part_to_head_;
 };
 
+/// Surfaces that direct echoes stand for, by patches of surfels.
+class PatchSurfaces {
+ public:
+  /// Keeps references to all arguments.
+  PatchSurfaces(const ResolvedPing& ping, const SceneCloud& scene, const Scatterers& patches, const Echoes& echoes)
+      : scene_(scene),
+        patches_(patches),
+        echoes_(echoes),
+        fan_(ping.head.fan),
+        cells_(fan_, ping.head.gate, ping.view.sampling),
+        to_head_(ping.view.world_from_head.linear().transpose()),
+        discs_(scene, to_head_) {
+    for (const double azimuth : fan_.azimuth) widest_ = std::max(widest_, std::abs(std::sin(azimuth)));
+  }
+
+  /// Returns true if patch i is the first of its surfel, which is its middle.
+  bool is_middle(std::size_t i) const { return i == 0 || patches_.surfel[i - 1] != patches_.surfel[i]; }
+
+  /// Returns patch i as a disc; a point where it is small beside a cell (E228).
+  EchoDisc disc_of(std::size_t i) const {
+    const double range = patches_.range[i], cosine = cosine_of(i),
+                 area = static_cast<double>(patches_.projected_area[i]) / cosine,
+                 cell = cells_.area(range, cosine, {fan_.beam_width, fan_.row_width});
+    if (!(area > least_part_of_cell * cell)) return {};
+    EchoDisc disc = discs_.of(patches_.surfel[i], direction_of(i), range, std::sqrt(area / pi));
+    disc.two_rings = std::abs(echoes_.u[i]) < widest_ && area > two_rings_of_cell * cell;
+    return disc;
+  }
+
+  /// Sets energy and extent of the surfel whose first patch is i (E181, E189) as those of entry `at`.
+  void set_surfel(std::size_t i, SurfaceEchoes& surface, std::size_t at) const {
+    const std::uint32_t surfel = patches_.surfel[i];
+    double power = 0, area = 0;
+    for (std::size_t k = i; k < patches_.size() && patches_.surfel[k] == surfel; ++k)
+      power += std::norm(echoes_.amplitude[k]), area += static_cast<double>(patches_.projected_area[k]);
+    const double range = patches_.range[i], cosine = cosine_of(i),
+                 half = spread_of_disc * std::sqrt(area / cosine / pi);
+    const TiltInU tilt(direction_of(i), to_head_ * scene_.normal[surfel].cast<double>());
+    surface.power[at] = power;
+    surface.depth[at] = static_cast<float>(half * std::sqrt(std::max(0.0, 1 - cosine * cosine)));
+    surface.width[at] = static_cast<float>(half / range);
+    surface.slope[at] = static_cast<float>(tilt.slope / range);
+    surface.across[at] = static_cast<float>(half / range * tilt.across);
+  }
+
+ private:
+  double cosine_of(std::size_t i) const {
+    return std::max(static_cast<double>(patches_.cos_incidence[i]), least_cosine);
+  }
+  /// Returns the direction from the head to patch i, in its axes.
+  Eigen::Vector3d direction_of(std::size_t i) const {
+    const double u = echoes_.u[i], v = echoes_.v.empty() ? std::sin(patches_.elevation[i]) : echoes_.v[i];
+    const double ahead = std::sqrt(std::max(0.0, 1 - u * u - v * v));
+    return {std::abs(patches_.azimuth[i]) > 0.5 * pi ? -ahead : ahead, u, v};
+  }
+
+  const SceneCloud& scene_;
+  const Scatterers& patches_;
+  const Echoes& echoes_;
+  const BeamFan& fan_;
+  SampledCells cells_;
+  Eigen::Matrix3d to_head_;
+  DiscMaker discs_;
+  double widest_ = 0;  // largest u of a beam
+};
+
 /// The intensities of cells as a ping stores them.
 ComplexGridF stored_cells(const Grid<double>& cells) {
   return stored_pressure(cells.sqrt().cast<std::complex<double>>(), "PingSimulator");
@@ -77,46 +143,19 @@ ComplexGridF stored_cells(const Grid<double>& cells) {
 
 void CellSum::add_direct(const SceneCloud& scene, const Scatterers& patches, const Echoes& echoes) {
   const std::size_t before = all_.id.size();
-  const Eigen::Matrix3d to_head = ping_.view.world_from_head.linear().transpose();
-  const DiscMaker discs(scene, to_head);
-  const BeamFan& fan = ping_.head.fan;
-  const SampledCells cells(fan, ping_.head.gate, ping_.view.sampling);
-  double widest = 0;  // largest u of a beam
-  for (const double azimuth : fan.azimuth) widest = std::max(widest, std::abs(std::sin(azimuth)));
   append(all_.echoes, echoes);
   if (ping_.options.outputs.labels) surfel_ = patches.surfel;
   all_.id.insert(all_.id.end(), patches.id.begin(), patches.id.end());
-  all_.power.resize(all_.id.size(), 0), all_.depth.resize(all_.id.size(), 0), all_.width.resize(all_.id.size(), 0);
-  all_.slope.resize(all_.id.size(), 0);
+  const std::size_t count = all_.id.size();
+  all_.power.resize(count, 0), all_.depth.resize(count, 0), all_.width.resize(count, 0), all_.slope.resize(count, 0);
   all_.across = all_.width;
-  all_.disc.resize(all_.id.size());
+  all_.disc.resize(count);
+  const PatchSurfaces surfaces(ping_, scene, patches, echoes);
   parallel_blocks(patches.size(), patches_at_once, ping_.options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t surfel = patches.surfel[i];
-      const double range = patches.range[i], u = echoes.u[i],
-                   v = echoes.v.empty() ? std::sin(patches.elevation[i]) : echoes.v[i];
-      const double cosine = std::max(static_cast<double>(patches.cos_incidence[i]), least_cosine);
-      const double ahead = std::sqrt(std::max(0.0, 1 - u * u - v * v));
-      const Eigen::Vector3d direction(std::abs(patches.azimuth[i]) > 0.5 * pi ? -ahead : ahead, u, v);
-      const double patch = static_cast<double>(patches.projected_area[i]) / cosine;
-      const double cell = cells.area(range, cosine, {fan.beam_width, fan.row_width});
-      if (patch > least_part_of_cell * cell) {
-        all_.disc[before + i] = discs.of(surfel, direction, range, std::sqrt(patch / pi));
-        all_.disc[before + i].two_rings = std::abs(u) < widest && patch > two_rings_of_cell * cell;
-      }
-
-      // The first patch of a surfel, which is its middle, has the energy of all.
-      if (i > 0 && patches.surfel[i - 1] == surfel) continue;
-      double power = 0, area = 0;
-      for (std::size_t k = i; k < patches.size() && patches.surfel[k] == surfel; ++k)
-        power += std::norm(echoes.amplitude[k]), area += static_cast<double>(patches.projected_area[k]);
-      const double radius = std::sqrt(area / cosine / pi), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-      all_.power[before + i] = power;
-      all_.depth[before + i] = static_cast<float>(spread_of_disc * radius * sine);
-      all_.width[before + i] = static_cast<float>(spread_of_disc * radius / range);
-      const TiltInU tilt(direction, to_head * scene.normal[surfel].cast<double>());
-      all_.slope[before + i] = static_cast<float>(tilt.slope / range);
-      all_.across[before + i] = static_cast<float>(spread_of_disc * radius / range * tilt.across);
+      all_.disc[before + i] = surfaces.disc_of(i);
+      // The first patch of a surfel has the energy of all.
+      if (surfaces.is_middle(i)) surfaces.set_surfel(i, all_, before + i);
     }
   });
   note("direct", before, 0);
