@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Compares drawn display cells with means of samples on this machine, and writes the tables of docs/results/display.md and
-# its picture, docs/images/display.png. It takes some fifty minutes; times are only meaningful on an otherwise idle machine.
+# its picture, docs/images/display.png. It takes some two and a half hours; times are only meaningful on an idle machine.
 #   docs/make_display.sh [build/release/bin]
 set -euo pipefail
 cd "$(dirname "$0")/.."
