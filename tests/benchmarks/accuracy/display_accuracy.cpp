@@ -3,7 +3,7 @@
 // (docs/results/display.md):
 //   display_accuracy scenes [SEEDS [SCENE|SONAR]]  level, contrast and likeness, by scene and head, with noise (64 seeds)
 //   display_accuracy cells [SEEDS [PICTURE.png]]   error and CPU time by number of cells (12 seeds)
-//   display_accuracy motion [PAIRS [SCENE|SONAR]]  how alike images are after a move (12 pairs)
+//   display_accuracy motion [PAIRS [SCENE|SONAR]]  how alike images are after a move (8 pairs)
 //   display_accuracy paths [SEEDS]    levels of echoes by way of other surfaces (8 seeds)
 #include <algorithm>
 #include <cstdio>
@@ -135,7 +135,7 @@ void print_moves(const View& view, const char* sonar, int pairs) {
   constexpr std::size_t count = std::size(moves);
   const Rig rig = rig_of(view, sonar, false);
   if (view.scene == "harbour") pairs *= 4;                             // a quarter of its cells hear the bed
-  if (view.scene == "reef in a tank") pairs = std::max(2, pairs / 3);  // its samples take seconds
+  if (view.scene == "reef in a tank") pairs = std::max(2, pairs / 2);  // its samples take seconds
   Changes changes[2][count];
   for (const bool phases : {false, true})
     for (int seed = 1; seed <= pairs; ++seed) {
@@ -208,7 +208,7 @@ int main(int argc, char** argv) {
   if (table == "cells")
     print_cells(argc > 2 ? seeds : 12, argc > 3 ? argv[3] : "");
   else if (table == "motion")
-    print_motion(argc > 2 ? seeds : 12, argc > 3 ? argv[3] : "");
+    print_motion(argc > 2 ? seeds : 8, argc > 3 ? argv[3] : "");
   else if (table == "paths")
     print_paths(argc > 2 ? seeds : 8);
   else
