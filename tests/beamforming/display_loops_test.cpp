@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -232,8 +234,8 @@ struct ThreeFields {
   std::array<double, 2> shared;
 };
 
-// Laws have the mean right to 0.2 % and the contrast to 1.2 % (E229). Five standard errors of so many numbers are 0.5 % of the
-// mean and up to 1 % of the contrast.
+// Laws have the mean right to 0.2 % and the contrast to 1.2 % (E229). Five standard errors of so many numbers are 0.6 % of the
+// mean of 2.5 looks and 0.8 % of the contrast.
 TEST(DisplayLoops, drawn_intensities_have_their_mean_and_looks) {
   constexpr std::size_t count = 1 << 18;
   const double even = pi / 8, nothing = std::numeric_limits<double>::min();

@@ -246,7 +246,7 @@ void CellRow::draw(Side& side) {
 }
 
 void CellRow::add_groups(std::size_t beam, Side& side) {
-  // Where a lobe of strong echoes ends, their energies leave the rest only roughly; the fields have it within a tenth.
+  // At the end of a strong echo's lobe the mean is a small difference of two large energies; fields are right to a tenth.
   double fields = -side.noise;
   for (const auto& power : side.power) fields += power[beam];
   const double mean = std::max(even_.mean[beam], least_of_fields * fields), looks = even_.looks[beam];
