@@ -4,6 +4,7 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
+#include <functional>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -45,8 +46,10 @@ double processor_time(pid_t process) {
 
 class Interrupt : public ToolTest {
  protected:
-  // Starts `insonify ARGUMENTS`, and sends `signal` after a time.
-  Ended interrupted(const std::string& arguments, double after, int signal = SIGINT) const {
+  // Starts `insonify ARGUMENTS`, and sends `signal` after a time [s], or up to ten seconds later, once it is ready.
+  Ended interrupted(
+      const std::string& arguments, double after, int signal = SIGINT,
+      const std::function<bool()>& ready = [] { return true; }) const {
     const pid_t child = fork();
     if (child == 0) {
       std::signal(SIGINT, SIG_DFL);  // a test that runs in the background ignores it
@@ -56,6 +59,7 @@ class Interrupt : public ToolTest {
       _exit(99);
     }
     usleep(static_cast<useconds_t>(after * 1e6));
+    for (int k = 0; k < 1000 && !ready(); ++k) usleep(10000);
     const double before = processor_time(child);
     StopWatch watch;
     kill(child, signal);
@@ -124,7 +128,7 @@ TEST_F(Interrupt, kill_leaves_what_the_next_run_removes) {
   have("harbour.ply", "make-scene harbour --points 300000");
   const std::string ping = "ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --no-picture -o out --range 1:";
   const std::size_t before = names().size();
-  interrupted(ping + "30 --method direct", 0.5, SIGKILL);
+  interrupted(ping + "30 --method direct", 0.1, SIGKILL, [&] { return names().size() > before; });
   EXPECT_EQ(names().size(), before + 1) << "a hidden folder";
   EXPECT_EQ(run(ping + "5").exit_code, 0);
   EXPECT_EQ(names().size(), before + 1) << "out";
