@@ -70,10 +70,10 @@ struct CellLabels {
 ///
 /// The expected intensity is the sum of the energies of the echoes, times the pattern of the beam, averaged over the
 /// band (E181). The number of looks of a cell follows from the ranges of its energy, from the pulse and from the noise
-/// (E182, E223, E226). Speckle is a gamma variate of so many looks that is made from three complex sums, over the echoes of
-/// thirds of its ranges, with their phases and random amplitudes, so that it stays with the surface and changes with the pose
-/// as that of samples does (E183, E228). Echoes that hold more than a tenth of a cell are added to it as pressures (E184),
-/// and so are `fixed` ones, whose amplitudes are not random.
+/// (E182, E223, E226). Speckle is a gamma variate of so many looks (E229), made from three complex sums over the echoes of
+/// thirds of its ranges, with their phases and random amplitudes: it stays with the surface and changes with the pose like
+/// speckle of samples (E183, E228). Pressures are added of echoes that hold more than a tenth of a cell (E184) and of
+/// `fixed` ones, whose amplitudes are not random.
 ///
 /// Accuracy against cells of true_delays samples (docs/results/display.md): bands of range 0.05 dB, cells 0.3 dB rms in the
 /// mean; contrast 5 %. Doppler shifts are ignored. Throws Error for an

@@ -144,7 +144,8 @@ TEST(DisplayCells, a_bright_piece_beside_a_beam_is_as_quiet_as_that_of_samples) 
     mean[0] += mean_over_cells(p.abs2(), samples.gate, head.gate);
     mean[1] += synthesize_cells(s, {}, head, lossless, {.seed = seed});
   }
-  // Both share the amplitude of the piece, but not the speckle of the ground that it stands on.
+  // Both share the amplitude of the piece, but not the speckle of the ground that it stands on: 0.1 dB of the ratio. Near the
+  // nulls of the piece, what is left of the mean is rough.
   for (Eigen::Index beam = 0; beam < 65; ++beam)
     EXPECT_NEAR(db_from_power(mean[1](beam, 2) / mean[0](beam, 2)), 0,
                 mean[0](beam, 2) > 3e-2 * mean[0].maxCoeff() ? 0.3 : 2)

@@ -10,12 +10,12 @@
 namespace insonify {
 namespace {
 
-constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
+constexpr double least_noise = 1e-9;  // noise in the energy of a cell, of which speckle is drawn where no echo stands
 constexpr double rounding = 1e-13;    // part of the louder of two cells that transforms leave in the other
 constexpr double parts_per_node = 4;  // parts of a tilted surface for each node of u along it
 constexpr double least_tilt = 0.25;   // change of u along a surface from which on its parts differ [nodes]
-constexpr double least_of_fields = 0.9;     // of the power of the fields, that even ground beside strong echoes has
-constexpr double least_interference = 0.1;  // of the energy of a look, from which on a strong echo interferes with it
+constexpr double least_of_fields = 0.9;     // least power of ground beside strong echoes, in that of its fields
+constexpr double least_interference = 0.1;  // energy of a strong echo in that of a look with which it interferes
 
 /// Looks at a position between two nodes.
 double looks_at(double position, const std::vector<double>& looks) {
