@@ -14,7 +14,12 @@
 
 namespace insonify {
 namespace {
-constexpr std::size_t samples_per_block = 1 << 16;
+constexpr std::size_t samples_per_block = 1 << 16, cells_per_block = 1 << 14;
+
+[[noreturn]] void fail_as_too_loud(double pressure, const char* who) {
+  fail(ErrorKind::content, who, ": pressure of up to ", pressure,
+       " Pa, must be below the 3.4e38 of single precision; lower source level, areas or lambert_mu");
+}
 }  // namespace
 
 void note_water(const Medium& at_head, Ping& ping) {
@@ -36,9 +41,21 @@ ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who) {
                     }
                     if (!all) finite = false;
                   });
-  if (!finite)
-    fail(ErrorKind::content, who, ": pressure of up to ", pressure.abs().maxCoeff(),
-         " Pa, must be below the 3.4e38 of single precision; lower source level, areas or lambert_mu");
+  if (!finite) fail_as_too_loud(pressure.abs().maxCoeff(), who);
+  return stored;
+}
+
+ComplexGridF stored_cells(const Grid<double>& intensity, const char* who) {
+  ComplexGridF stored(intensity.rows(), intensity.cols());
+  std::atomic<bool> finite = true;
+  parallel_blocks(static_cast<std::size_t>(intensity.size()), cells_per_block, 0,
+                  [&](std::size_t begin, std::size_t end) {
+                    const auto count = static_cast<Eigen::Index>(end - begin);
+                    Eigen::Map<Eigen::ArrayXcf> to(stored.data() + begin, count);
+                    to = Eigen::Map<const Eigen::ArrayXd>(intensity.data() + begin, count).sqrt().cast<float>();
+                    if (!to.real().isFinite().all()) finite = false;
+                  });
+  if (!finite) fail_as_too_loud(std::sqrt(intensity.maxCoeff()), who);
   return stored;
 }
 

@@ -60,6 +60,9 @@ void note_water(const Medium& at_head, Ping& ping);
 /// Returns the pressure in single precision, as a ping stores it. Throws Error(content) naming `who` if a sample
 /// exceeds 3.4e38 Pa or is not a number.
 ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who);
+/// Returns the intensities of display cells, mean |pressure|^2 [Pa^2], beams x cells, as a ping stores them: their roots as
+/// pressures of phase 0. Throws as stored_pressure.
+ComplexGridF stored_cells(const Grid<double>& intensity, const char* who);
 
 /// The level that stands for no sound [dB re 1 uPa rms].
 inline constexpr double silence_db = -200;

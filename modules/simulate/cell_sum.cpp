@@ -16,6 +16,7 @@
 namespace insonify {
 namespace {
 
+constexpr const char* me = "PingSimulator";
 constexpr std::size_t patches_at_once = 4096;
 constexpr double least_cosine = 1e-3;
 constexpr double least_part_of_cell = 0.125;  // area of a patch from which on it is a disc; samples split it
@@ -134,11 +135,6 @@ class PatchSurfaces {
   double widest_ = 0;  // largest u of a beam
 };
 
-/// The intensities of cells as a ping stores them.
-ComplexGridF stored_cells(const Grid<double>& cells) {
-  return stored_pressure(cells.sqrt().cast<std::complex<double>>(), "PingSimulator");
-}
-
 }  // namespace
 
 void CellSum::add_direct(const SceneCloud& scene, const Scatterers& patches, const Echoes& echoes) {
@@ -201,14 +197,15 @@ CellOptions CellSum::options_with(double noise_db) const {
 
 ComplexGridF CellSum::drawn(const SurfaceEchoes& surface, const Echoes& fixed, double noise_db) const {
   return stored_cells(synthesizers_.cells_of(ping_.head, ping_.sent.medium, ping_.samples.bin_size)
-                          ->cells(surface, fixed, options_with(noise_db)));
+                          ->cells(surface, fixed, options_with(noise_db)),
+                      me);
 }
 
 ComplexGridF CellSum::labelled(const SceneCloud& scene, double noise_db, PixelLabels& labels) const {
   const EchoLabels of_echoes{label_numbers(scene, surfel_), water_begin_, water_begin_ > 0 ? all_.id.size() : 0};
   CellLabels shown;
   const auto synthesizer = synthesizers_.cells_of(ping_.head, ping_.sent.medium, ping_.samples.bin_size);
-  ComplexGridF cells = stored_cells(synthesizer->cells(all_, fixed_, options_with(noise_db), of_echoes, shown));
+  ComplexGridF cells = stored_cells(synthesizer->cells(all_, fixed_, options_with(noise_db), of_echoes, shown), me);
   labels = labels_of_cells(scene, shown, surfel_, all_.echoes.v);
   return cells;
 }

@@ -5,13 +5,15 @@
 
 #include "beamforming/display/cell_echoes_internal.hpp"
 #include "beamforming/display/field_points_internal.hpp"
+#include "beamforming/display/positions_by_cell_internal.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr std::size_t echoes_at_once = 4096, cells_at_once = 16;
+constexpr std::size_t echoes_at_once = 4096;
+constexpr std::uint32_t no_slot = std::numeric_limits<std::uint32_t>::max();
 
 /// First and last cell of an echo; the first is beyond the last if it has none.
 struct CellSpan {
@@ -21,35 +23,48 @@ struct CellSpan {
 /// Makes echoes of cells, some at a time.
 class EchoMaker {
  public:
-  EchoMaker(const DisplayPlan& plan, const SurfaceEchoes& surface, const Echoes& fixed, const Medium& medium,
-            const CellOptions& options)
+  EchoMaker(const DisplayPlan& plan, const SurfaceEchoes& surface, const Echoes& fixed, const Medium& medium)
       : plan_(plan),
         surface_(surface),
         fixed_(fixed),
         metres_per_s_(0.5 * medium.sound_speed),
-        per_cell_length_(1 / plan.cell_length),
-        points_(plan, surface, options) {}
-
-  /// Sets the cells that echoes begin .. end - 1 are in.
-  void find_cells(std::size_t begin, std::size_t end, std::vector<CellSpan>& cells) const {
-    const std::size_t surfaces = surface_.id.size();
-    for (std::size_t i = begin; i < end; ++i) {
-      const bool is_surface = i < surfaces;
-      const double depth = is_surface && surface_.power[i] > 0 ? static_cast<double>(surface_.depth[i]) : 0;
-      cells[i] = cells_of(metres_per_s_ * (is_surface ? surface_.echoes.delay[i] : fixed_.delay[i - surfaces]), depth);
+        per_cell_length_(1 / plan.cell_length) {
+    for (std::size_t cell = 0; cell <= plan.cells; ++cell) {
+      ranges_.push_back(plan.first_range + static_cast<double>(cell) * plan.cell_length);
+      edges_.push_back(plan.edges.at(ranges_.back()));
     }
   }
-  /// Sets those of echoes begin .. end - 1 that have a position in the list, and adds their points; `slot` beyond it:
-  /// none.
-  void make(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& slot,
-            UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const {
+
+  /// Returns the cells that echo i is in.
+  CellSpan cells_of(std::size_t i) const {
     const std::size_t surfaces = surface_.id.size();
-    for (std::size_t i = begin; i < end; ++i)
-      if (slot[i] < echoes.size()) echoes[slot[i]] = i < surfaces ? of_surface(i) : of_target(i - surfaces);
-    if (begin < surfaces) points_.add(begin, std::min(end, surfaces), slot, echoes, points);
+    const bool is_surface = i < surfaces;
+    const double depth = is_surface && surface_.power[i] > 0 ? static_cast<double>(surface_.depth[i]) : 0;
+    return cells_about(metres_per_s_ * (is_surface ? surface_.echoes.delay[i] : fixed_.delay[i - surfaces]), depth);
   }
   /// Returns true if an echo has the energy of a surface or target.
   bool has_energy(std::size_t i) const { return i >= surface_.id.size() || surface_.power[i] > 0; }
+  /// Returns echo i, at the peak of the responses of rows; its random amplitude is not in its pressure yet.
+  CellEcho make(std::size_t i) const {
+    const std::size_t surfaces = surface_.id.size();
+    return i < surfaces ? of_surface(i) : of_target(i - surfaces);
+  }
+  /// Calls use(cell, energy) for the energy of an echo in each of its cells.
+  template <typename Use>
+  void for_each_part(const CellEcho& echo, const CellSpan& cells, const Use& use) const {
+    const double range = echo.range, depth = echo.half_depth, energy = echo.energy;
+    const auto before = [&](std::size_t cell) {
+      return energy > 0 ? plan_.edges.before(edges_[cell], range, depth) : 0;
+    };
+    double near = before(cells.first);
+    for (std::size_t cell = cells.first; cell <= cells.last; ++cell) {
+      const double far = before(cell + 1), first = ranges_[cell], last = ranges_[cell + 1];
+      // The mean is over area, which grows with range.
+      const double weight = std::clamp(range, first, last) * (2 / (first + last));
+      use(cell, static_cast<float>(energy * (weight * (far - near))));  // (E227)
+      near = far;
+    }
+  }
 
  private:
   using Complex = std::complex<double>;
@@ -99,7 +114,7 @@ class EchoMaker {
                               surface_.power[i]);
   }
 
-  CellSpan cells_of(double range, double half_depth) const {
+  CellSpan cells_about(double range, double half_depth) const {
     const auto last_cell = static_cast<double>(plan_.cells - 1);
     const double reach = half_depth + plan_.edges.reach();
     const double low = std::floor((range - reach - plan_.first_range) * per_cell_length_),
@@ -112,80 +127,57 @@ class EchoMaker {
   const SurfaceEchoes& surface_;
   const Echoes& fixed_;
   double metres_per_s_, per_cell_length_;
-  FieldPointMaker points_;
+  std::vector<double> ranges_;  // of the edges of cells [m]
+  std::vector<CellEdges::Edge> edges_;
 };
-
-/// Returns the position of each echo among those that are in a cell, by their first cells: what a cell holds stands side by
-/// side. Those in no cell stand beyond. source: gets the echo at each position.
-std::vector<std::uint32_t> slots_by_cell(const std::vector<CellSpan>& cells, std::size_t count,
-                                         std::vector<std::uint32_t>& source) {
-  std::vector<std::uint32_t> first(count + 1, 0), slot(cells.size(), std::numeric_limits<std::uint32_t>::max());
-  for (const CellSpan& span : cells)
-    if (span.first <= span.last) ++first[span.first + 1];
-  for (std::size_t c = 0; c < count; ++c) first[c + 1] += first[c];
-  source.resize(first[count]);
-  for (std::uint32_t i = 0; i < cells.size(); ++i) {
-    if (cells[i].first > cells[i].last) continue;
-    slot[i] = first[cells[i].first]++;
-    source[slot[i]] = i;
-  }
-  return slot;
-}
-
-/// Sets the parts of the energies in cells begin .. end - 1.
-void set_parts(const DisplayPlan& plan, std::size_t begin, std::size_t end, EchoesByCell& lists) {
-  for (std::size_t cell = begin; cell < end; ++cell) {
-    const double first = plan.first_range + static_cast<double>(cell) * plan.cell_length,
-                 last = first + plan.cell_length, per_middle = 2 / (first + last);
-    const CellEdges::Edge near = plan.edges.at(first), far = plan.edges.at(last);
-    for (std::size_t k = lists.first[cell]; k < lists.first[cell + 1]; ++k) {
-      EchoInCell& in = lists.piece[k];
-      const CellEcho& echo = lists.echoes[in.echo];
-      // The mean is over area, which grows with range.
-      const double range = echo.range, depth = echo.half_depth, weight = std::clamp(range, first, last) * per_middle;
-      const double piece =
-          echo.energy > 0 ? plan.edges.before(far, range, depth) - plan.edges.before(near, range, depth) : 0;  // (E227)
-      in.energy = static_cast<float>(static_cast<double>(echo.energy) * (weight * piece));
-    }
-  }
-}
 
 }  // namespace
 
 EchoesByCell echoes_by_cell(const DisplayPlan& plan, const SurfaceEchoes& surface, const Echoes& fixed,
                             const Medium& medium, const CellOptions& options) {
-  EchoesByCell lists;
-  const std::size_t count = surface.id.size() + fixed.size();
+  const std::size_t count = surface.id.size() + fixed.size(), blocks = (count + echoes_at_once - 1) / echoes_at_once;
+  const EchoMaker maker(plan, surface, fixed, medium);
   std::vector<CellSpan> cells(count);
-  const EchoMaker maker(plan, surface, fixed, medium, options);
-  parallel_blocks(count, echoes_at_once, options.threads,
-                  [&](std::size_t begin, std::size_t end) { maker.find_cells(begin, end, cells); });
-  const std::vector<std::uint32_t> slot = slots_by_cell(cells, plan.cells, lists.source);
-  lists.echoes.resize(lists.source.size());
-  std::vector<PlacedPoints> points((count + echoes_at_once - 1) / echoes_at_once);
+  ItemsOfBlocks echoes(blocks, std::vector<std::size_t>(plan.cells)), pieces = echoes;
   parallel_blocks(count, echoes_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
-    maker.make(begin, end, slot, lists.echoes, points[begin / echoes_at_once]);
+    const std::size_t block = begin / echoes_at_once;
+    for (std::size_t i = begin; i < end; ++i) {
+      cells[i] = maker.cells_of(i);
+      if (cells[i].first > cells[i].last) continue;
+      ++echoes[block][cells[i].first];
+      if (!maker.has_energy(i)) continue;
+      for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) ++pieces[block][c];
+    }
   });
-  lists.points = points_by_cell(points, plan.cells, options.threads);
-  // The echoes of each cell, in the order in which they were given.
-  lists.first.assign(plan.cells + 1, 0);
-  for (std::size_t i = 0; i < count; ++i)
-    if (maker.has_energy(i))
-      for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) ++lists.first[c + 1];
-  for (std::size_t c = 0; c < plan.cells; ++c) lists.first[c + 1] += lists.first[c];
-  lists.piece.resize(lists.first.back());
-  std::vector<std::size_t> next(lists.first.begin(), lists.first.end() - 1);
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (maker.has_energy(i))
-      for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) lists.piece[next[c]++].echo = slot[i];
-  parallel_blocks(plan.cells, cells_at_once, options.threads,
-                  [&](std::size_t begin, std::size_t end) { set_parts(plan, begin, end, lists); });
+  EchoesByCell lists;
+  // Echoes stand by their first cells, so that a cell has its own side by side.
+  const std::size_t listed = positions_by_cell(echoes, plan.cells).back();
+  lists.first = positions_by_cell(pieces, plan.cells);
+  lists.echoes.resize(listed), lists.source.resize(listed), lists.piece.resize(lists.first.back());
+  UninitializedVector<std::uint32_t> slot(count);
+  const FieldPointMaker point_maker(plan, surface, options);
+  std::vector<DrawnPoints> points(blocks);
+  parallel_blocks(count, echoes_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t block = begin / echoes_at_once;
+    for (std::size_t i = begin; i < end; ++i) {
+      slot[i] = no_slot;
+      if (cells[i].first > cells[i].last) continue;
+      const auto at = static_cast<std::uint32_t>(echoes[block][cells[i].first]++);
+      slot[i] = at, lists.source[at] = static_cast<std::uint32_t>(i), lists.echoes[at] = maker.make(i);
+      if (!maker.has_energy(i)) continue;
+      maker.for_each_part(lists.echoes[at], cells[i], [&](std::size_t cell, float energy) {
+        lists.piece[pieces[block][cell]++] = {at, energy};
+      });
+    }
+    points[block] = point_maker.draw(begin, std::min(end, surface.id.size()), slot, lists.echoes);
+  });
+  lists.points = point_maker.by_cell(points);
   return lists;
 }
 
 RowWeights::RowWeights(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows, double cutoff,
-                       const SurfaceEchoes& surface, const Echoes& fixed, const std::vector<std::uint32_t>& source,
-                       int threads)
+                       const SurfaceEchoes& surface, const Echoes& fixed,
+                       const UninitializedVector<std::uint32_t>& source, int threads)
     : head_(head), wavelength_(wavelength), threads_(threads) {
   const std::size_t surfaces = surface.id.size();
   for (const std::uint32_t i : source) v_.push_back(i < surfaces ? surface.echoes.v[i] : fixed.v[i - surfaces]);

@@ -20,7 +20,8 @@ class RowWeights {
  public:
   /// Keeps a reference to the head.
   RowWeights(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows, double cutoff,
-             const SurfaceEchoes& surface, const Echoes& fixed, const std::vector<std::uint32_t>& source, int threads);
+             const SurfaceEchoes& surface, const Echoes& fixed, const UninitializedVector<std::uint32_t>& source,
+             int threads);
   std::vector<double> of(const FanRow& row) const;
 
  private:

@@ -32,7 +32,7 @@ void CellRow::sum_fields(std::size_t cell, std::size_t s) {
   std::array<float*, field_parts - 1> shared;
   for (std::size_t q = 0; q < field_parts; ++q) power[q] = reinterpret_cast<double*>(power_at_[q].data()) + s;
   for (std::size_t q = 0; q + 1 < field_parts; ++q) shared[q] = reinterpret_cast<float*>(shared_at_[q].data()) + s;
-  for (std::uint32_t k = points.first[cell]; k < points.first[cell + 1]; ++k) {
+  for (std::size_t k = points.first[cell]; k < points.first[cell + 1]; ++k) {
     const FieldPoint& point = points.point[k];
     const float response = row_.response.empty() ? 1 : static_cast<float>(row_.response[point.echo]);
     if (response == 0 || is_one_of(side.strong_numbers, point.echo)) continue;

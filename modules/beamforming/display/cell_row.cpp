@@ -66,7 +66,7 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
 
 CellRow::~CellRow() = default;
 
-void CellRow::form(std::size_t cell, Grid<double>& image) {
+void CellRow::form(std::size_t cell, const std::vector<std::size_t>& beams, Grid<double>& image) {
   const std::size_t sides = std::min<std::size_t>(2, plan_.cells - cell);
   double loudest = 0;
   for (std::size_t s = 0; s < sides; ++s) {
@@ -76,11 +76,12 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
   for (std::size_t s = 0; s < sides; ++s)
     side_[s].noise = std::max({row_.element_noise, least_noise * side_[s].energy, rounding * loudest}) * plan_.lag[0];
   form_means(cell, sides);
-  const auto column = static_cast<Eigen::Index>(cell);
+  const auto write = [&](std::size_t s, const std::vector<double>& intensity) {
+    for (std::size_t b = 0; b < beams.size(); ++b)
+      image(static_cast<Eigen::Index>(beams[b]), static_cast<Eigen::Index>(cell + s)) = intensity[b];
+  };
   if (!options_.speckle) {
-    for (std::size_t s = 0; s < sides; ++s)
-      for (std::size_t b = 0; b < beams_.u_beam.size(); ++b)
-        image(static_cast<Eigen::Index>(b), column + static_cast<Eigen::Index>(s)) = side_[s].mean[b];
+    for (std::size_t s = 0; s < sides; ++s) write(s, side_[s].mean);
     return;
   }
   for (auto& nodes : power_at_) std::fill(nodes.begin(), nodes.end(), Complex(0));
@@ -95,8 +96,7 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
   sum_powers(sides);
   for (std::size_t s = 0; s < sides; ++s) {
     draw(side_[s]);
-    for (std::size_t b = 0; b < drawn_.size(); ++b)
-      image(static_cast<Eigen::Index>(b), column + static_cast<Eigen::Index>(s)) = drawn_[b];
+    write(s, drawn_);
   }
 }
 

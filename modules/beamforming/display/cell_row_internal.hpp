@@ -57,15 +57,15 @@ struct FieldPoint {
 };
 /// The points of each cell: those of cell c are point[first[c]] .. point[first[c + 1] - 1].
 struct PointsByCell {
-  std::vector<std::uint32_t> first;
+  std::vector<std::size_t> first;
   UninitializedVector<FieldPoint> point;
 };
 
 /// The echoes of each cell: those of cell c are part[first[c]] .. part[first[c + 1] - 1].
 struct EchoesByCell {
   PointsByCell points;
-  UninitializedVector<CellEcho> echoes;  ///< those that are in a cell, by their first cells
-  std::vector<std::uint32_t> source{};   ///< number of each echo here among those of the surface, then those fixed
+  UninitializedVector<CellEcho> echoes;       ///< those that are in a cell, by their first cells
+  UninitializedVector<std::uint32_t> source;  ///< number of each echo here among those of the surface, then those fixed
   std::vector<std::size_t> first;
   UninitializedVector<EchoInCell> piece;
 };
@@ -90,9 +90,9 @@ class CellRow {
   CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowReception& row, const CellOptions& options);
   ~CellRow();
 
-  /// Writes the intensities of cell `cell` and, if there is one, of the next, to these columns of `image` (beams x
-  /// cells).
-  void form(std::size_t cell, Grid<double>& image);
+  /// Writes the intensities of cell `cell` and, if there is one, of the next, to these columns of `image` (beams x cells), and
+  /// to the rows that `beams` lists.
+  void form(std::size_t cell, const std::vector<std::size_t>& beams, Grid<double>& image);
 
  private:
   using Complex = std::complex<double>;

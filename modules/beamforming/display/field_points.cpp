@@ -19,6 +19,15 @@ std::complex<float> product(const std::complex<float>& a, const std::complex<flo
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
+/// Returns a list of so many echoes of which each has so many points; none of its numbers is set.
+PointList list_of(std::size_t echoes, std::size_t points) {
+  PointList list;
+  list.echo.resize(echoes), list.power.resize(echoes), list.points.resize(points);
+  for (PointList::Points& of : list.points)
+    of.re.resize(echoes), of.im.resize(echoes), of.place.resize(echoes), of.node.resize(echoes);
+  return list;
+}
+
 }  // namespace
 
 /// Discs of some echoes (kernels::Discs), and the numbers of these among those in cells.
@@ -37,9 +46,11 @@ FieldPointMaker::FieldPointMaker(const DisplayPlan& plan, const SurfaceEchoes& s
       per_cell_length_(1 / plan.cell_length),
       edge_(static_cast<float>(plan.fields.edge)) {}
 
-void FieldPointMaker::add(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& slot,
-                          UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const {
-  if (!options_.speckle) return;
+DrawnPoints FieldPointMaker::draw(std::size_t begin, std::size_t end, const UninitializedVector<std::uint32_t>& slot,
+                                  UninitializedVector<CellEcho>& echoes) const {
+  DrawnPoints drawn;
+  drawn.in_cell.assign(plan_.cells, 0);
+  if (!options_.speckle) return drawn;
   DiscList discs;
   std::vector<std::size_t> single;
   for (std::size_t i = begin; i < end; ++i) {
@@ -49,9 +60,9 @@ void FieldPointMaker::add(std::size_t begin, std::size_t end, const std::vector<
     else
       single.push_back(i);
   }
-  points.reserve(5 * discs.id.size() + 2 * single.size());
-  add_discs(discs, echoes, points);
-  add_single(single, slot, echoes, points);
+  drawn.discs = draw_discs(discs, echoes), drawn.single = draw_single(single, slot, echoes);
+  count(drawn.discs, drawn.in_cell), count(drawn.single, drawn.in_cell);
+  return drawn;
 }
 
 double FieldPointMaker::place_of(std::size_t i) const {
@@ -84,34 +95,41 @@ void FieldPointMaker::list_disc(std::size_t i, std::uint32_t number, DiscList& d
   add_ring(surface_.id[i] + other_ring, outer_ring, 0.5 * of_point);
 }
 
-void FieldPointMaker::add_single(const std::vector<std::size_t>& single, const std::vector<std::uint32_t>& slot,
-                                 UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const {
+PointList FieldPointMaker::draw_single(const std::vector<std::size_t>& single,
+                                       const UninitializedVector<std::uint32_t>& slot,
+                                       UninitializedVector<CellEcho>& echoes) const {
+  const std::size_t size = single.size();
   std::vector<std::uint64_t> id;
   for (const std::size_t i : single) id.push_back(surface_.id[i]);
-  std::vector<double> re(id.size()), im(id.size());
+  std::vector<double> re(size), im(size);
   random_amplitudes(options_.seed, id, re.data(), im.data());  // (E9)
-  for (std::size_t k = 0; k < id.size(); ++k) {
+  PointList list = list_of(size, 1);
+  PointList::Points& points = list.points.front();
+  for (std::size_t k = 0; k < size; ++k) {
     const std::size_t i = single[k];
     const Complex amplitude = surface_.echoes.amplitude[i];
-    const auto energy = static_cast<float>(energy_of(i));
     std::complex<float>& pressure = echoes[slot[i]].pressure;
     // An entry for what both senses of a path add has no pressure of its own (E190).
     if (id[k] != SurfaceEchoes::of_both)
       pressure = std::complex<float>(amplitude / std::sqrt(std::norm(amplitude)) * Complex(re[k], im[k]));
-    add_point(static_cast<float>(place_of(i)), plan_.node_of(surface_.echoes.u[i]), std::sqrt(energy) * pressure,
-              energy, slot[i], points);
+    const auto energy = static_cast<float>(energy_of(i));
+    const float root = std::sqrt(energy);
+    list.echo[k] = slot[i], list.power[k] = energy;
+    points.re[k] = root * pressure.real(), points.im[k] = root * pressure.imag();
+    points.place[k] = static_cast<float>(place_of(i));
+    points.node[k] = static_cast<std::int32_t>(plan_.node_of(surface_.echoes.u[i]));
   }
+  return list;
 }
 
-void FieldPointMaker::add_discs(const DiscList& discs, UninitializedVector<CellEcho>& echoes,
-                                PlacedPoints& points) const {
-  const std::size_t count = discs.id.size();
-  std::array<std::vector<float>, kernels::points_of_disc> re, im, place;
-  std::array<std::vector<std::int32_t>, kernels::points_of_disc> node;
+PointList FieldPointMaker::draw_discs(const DiscList& discs, UninitializedVector<CellEcho>& echoes) const {
+  const std::size_t size = discs.id.size();
+  PointList list = list_of(size, kernels::points_of_disc);
   kernels::DiscPoints to;
   for (std::size_t k = 0; k < kernels::points_of_disc; ++k) {
-    re[k].resize(count), im[k].resize(count), place[k].resize(count), node[k].resize(count);
-    to.re[k] = re[k].data(), to.im[k] = im[k].data(), to.place[k] = place[k].data(), to.node[k] = node[k].data();
+    PointList::Points& points = list.points[k];
+    to.re[k] = points.re.data(), to.im[k] = points.im.data(), to.place[k] = points.place.data();
+    to.node[k] = points.node.data();
   }
   kernels::draw_discs(options_.seed, discs.id.data(),
                       {discs.place.data(),
@@ -124,57 +142,64 @@ void FieldPointMaker::add_discs(const DiscList& discs, UninitializedVector<CellE
                        per_cell_length_ / plan_.cycles_per_metre,
                        plan_.nodes_per_u,
                        static_cast<double>(plan_.nodes - 1)},
-                      count, to);
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto root = static_cast<float>(discs.root[k]), power = root * root;
+                      size, to);
+  for (std::size_t k = 0; k < size; ++k) {
+    const auto root = static_cast<float>(discs.root[k]);
+    list.echo[k] = discs.number[k], list.power[k] = root * root;
     if (!(root > 0)) continue;
     std::complex<float> sum = 0;
-    for (std::size_t point = 0; point < kernels::points_of_disc; ++point) {
-      const std::complex<float> pressure(re[point][k], im[point][k]);
-      add_point(place[point][k], static_cast<std::size_t>(node[point][k]), pressure, power, discs.number[k], points);
-      sum += pressure;
-    }
+    for (const PointList::Points& points : list.points) sum += std::complex<float>(points.re[k], points.im[k]);
     echoes[discs.number[k]].pressure += (std::sqrt(discs.part[k]) / root) * sum;
   }
+  return list;
 }
 
-void FieldPointMaker::add_point(float place, std::size_t node, const std::complex<float>& pressure, float power,
-                                std::uint32_t number, PlacedPoints& points) const {
+template <typename Use>
+void FieldPointMaker::for_each_cell(float place, const Use& use) const {
   if (!(place > -edge_ && place < static_cast<float>(plan_.cells) + edge_)) return;
   const std::int32_t last = static_cast<std::int32_t>(plan_.cells) - 1,
                      cell = std::min(static_cast<std::int32_t>(place), last);  // 0 if the place is before it
-  std::size_t in_period = node;
-  while (in_period >= plan_.period) in_period -= plan_.period;
-  PlacedPoint placed{{plan_.half_positions ? product(plan_.turn[node], pressure) : pressure, power,
-                      static_cast<std::uint32_t>(in_period), 0, number},
-                     static_cast<std::uint32_t>(cell)};
   const float within = place - static_cast<float>(cell);
-  const auto put = [&](float at, std::int32_t in) {
-    placed.point.share = plan_.fields.index_at(at), placed.cell = static_cast<std::uint32_t>(in);
-    points.push_back(placed);
-  };
-  if (within < edge_ && cell > 0) put(within + 1, cell - 1);
-  put(within, cell);
-  if (within > 1 - edge_ && cell < last) put(within - 1, cell + 1);
+  if (within < edge_ && cell > 0) use(static_cast<std::size_t>(cell - 1), within + 1);
+  use(static_cast<std::size_t>(cell), within);
+  if (within > 1 - edge_ && cell < last) use(static_cast<std::size_t>(cell + 1), within - 1);
 }
 
-PointsByCell points_by_cell(const std::vector<PlacedPoints>& blocks, std::size_t cells, int threads) {
-  // Where each block's points of each cell begin.
-  std::vector<std::vector<std::uint32_t>> at(blocks.size());
-  parallel_for(blocks.size(), threads, [&](std::size_t b) {
-    at[b].assign(cells, 0);
-    for (const PlacedPoint& placed : blocks[b]) ++at[b][placed.cell];
-  });
-  PointsByCell all;
-  std::uint32_t next = 0;
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    all.first.push_back(next);
-    for (auto& of_block : at) next += std::exchange(of_block[cell], next);
+void FieldPointMaker::count(const PointList& list, std::vector<std::size_t>& in_cell) const {
+  for (std::size_t k = 0; k < list.echo.size(); ++k)
+    if (list.power[k] > 0)
+      for (const PointList::Points& points : list.points)
+        for_each_cell(points.place[k], [&](std::size_t cell, float) { ++in_cell[cell]; });
+}
+
+void FieldPointMaker::put(const PointList& list, std::vector<std::size_t>& at,
+                          UninitializedVector<FieldPoint>& points) const {
+  for (std::size_t k = 0; k < list.echo.size(); ++k) {
+    if (!(list.power[k] > 0)) continue;
+    for (const PointList::Points& of : list.points) {
+      auto node = static_cast<std::size_t>(of.node[k]);
+      const std::complex<float> pressure(of.re[k], of.im[k]);
+      FieldPoint point{plan_.half_positions ? product(plan_.turn[node], pressure) : pressure, list.power[k], 0, 0,
+                       list.echo[k]};
+      while (node >= plan_.period) node -= plan_.period;
+      point.node = static_cast<std::uint32_t>(node);
+      for_each_cell(of.place[k], [&](std::size_t cell, float within) {
+        point.share = plan_.fields.index_at(within);
+        points[at[cell]++] = point;
+      });
+    }
   }
-  all.first.push_back(next);
-  all.point.resize(next);
-  parallel_for(blocks.size(), threads, [&](std::size_t b) {
-    for (const PlacedPoint& placed : blocks[b]) all.point[at[b][placed.cell]++] = placed.point;
+}
+
+PointsByCell FieldPointMaker::by_cell(std::vector<DrawnPoints>& blocks) const {
+  ItemsOfBlocks at;
+  for (DrawnPoints& block : blocks) at.push_back(std::move(block.in_cell));
+  PointsByCell all;
+  all.first = positions_by_cell(at, plan_.cells);
+  all.point.resize(all.first.back());
+  parallel_for(blocks.size(), options_.threads, [&](std::size_t b) {
+    put(blocks[b].discs, at[b], all.point);
+    put(blocks[b].single, at[b], all.point);
   });
   return all;
 }

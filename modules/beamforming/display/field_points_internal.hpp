@@ -8,16 +8,26 @@
 
 #include "beamforming/display/cell_row_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
+#include "beamforming/display/positions_by_cell_internal.hpp"
 
 namespace insonify {
 
-/// A point in a cell.
-struct PlacedPoint {
-  FieldPoint point;
-  std::uint32_t cell;
+/// Points of the surfaces of some echoes, by echoes that have equally many.
+struct PointList {
+  /// One point of each echo: pressures [Pa], places [cells] and nodes.
+  struct Points {
+    UninitializedVector<float> re, im, place;
+    UninitializedVector<std::int32_t> node;
+  };
+  UninitializedVector<std::uint32_t> echo;  ///< number of each echo
+  UninitializedVector<float> power;         ///< expected square of the pressure of each of its points [Pa^2]
+  std::vector<Points> points;
 };
-/// Points of some echoes; those beside an edge of a cell stand for each of two.
-using PlacedPoints = UninitializedVector<PlacedPoint>;
+/// Points of some echoes, and how many stand in each cell; those beside an edge of a cell stand in two.
+struct DrawnPoints {
+  PointList discs, single;
+  std::vector<std::size_t> in_cell;
+};
 
 /// Makes the points of which the fields of cells are the sums: one of an echo, or those of its disc (E183, E228).
 class FieldPointMaker {
@@ -25,10 +35,12 @@ class FieldPointMaker {
   /// Keeps references to all arguments, which must outlive it.
   FieldPointMaker(const DisplayPlan& plan, const SurfaceEchoes& surface, const CellOptions& options);
 
-  /// Adds the points of echoes begin .. end - 1 of surfaces that are listed: echo i is number slot[i] of `echoes`, if there
+  /// Returns the points of echoes begin .. end - 1 of surfaces that are listed: echo i is number slot[i] of `echoes`, if there
   /// are so many. Sets the pressures of these.
-  void add(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& slot,
-           UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const;
+  DrawnPoints draw(std::size_t begin, std::size_t end, const UninitializedVector<std::uint32_t>& slot,
+                   UninitializedVector<CellEcho>& echoes) const;
+  /// Returns the points of all blocks of echoes by cell, each cell's in the order of the blocks.
+  PointsByCell by_cell(std::vector<DrawnPoints>& blocks) const;
 
  private:
   struct DiscList;
@@ -37,13 +49,16 @@ class FieldPointMaker {
   double place_of(std::size_t i) const;
   double energy_of(std::size_t i) const;
   void list_disc(std::size_t i, std::uint32_t number, DiscList& discs) const;
-  void add_discs(const DiscList& discs, UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const;
-  /// Adds echoes that are points.
-  void add_single(const std::vector<std::size_t>& single, const std::vector<std::uint32_t>& slot,
-                  UninitializedVector<CellEcho>& echoes, PlacedPoints& points) const;
-  /// Adds a point at a place [cells] to its cell, and to the one beside it if it is near the edge.
-  void add_point(float place, std::size_t node, const std::complex<float>& pressure, float power, std::uint32_t number,
-                 PlacedPoints& points) const;
+  PointList draw_discs(const DiscList& discs, UninitializedVector<CellEcho>& echoes) const;
+  /// Draws echoes that are points.
+  PointList draw_single(const std::vector<std::size_t>& single, const UninitializedVector<std::uint32_t>& slot,
+                        UninitializedVector<CellEcho>& echoes) const;
+  /// Calls use(cell, place in it) for the cell at a place [cells], and for the one beside it if the place is near the edge.
+  template <typename Use>
+  void for_each_cell(float place, const Use& use) const;
+  void count(const PointList& list, std::vector<std::size_t>& in_cell) const;
+  /// Sets the points of a list; at: where the next one of each cell stands.
+  void put(const PointList& list, std::vector<std::size_t>& at, UninitializedVector<FieldPoint>& points) const;
 
   const DisplayPlan& plan_;
   const SurfaceEchoes& surface_;
@@ -51,8 +66,5 @@ class FieldPointMaker {
   double per_cell_length_;
   float edge_;  ///< half the way from a cell to the next [cells]
 };
-
-/// Returns the points of all blocks by cell, each cell's in the order of the blocks.
-PointsByCell points_by_cell(const std::vector<PlacedPoints>& blocks, std::size_t cells, int threads);
 
 }  // namespace insonify

@@ -62,17 +62,14 @@ struct CellSynthesizer::Plan {
 
   void form_row(const FanRow& of, const RowReception& reception, const EchoesByCell& lists, const CellOptions& options,
                 Grid<double>& cells) const {
-    Grid<double> image(of.beams.size(), display.cells);
     // Each block also needs the pairs beside it, so that long ones do less work twice.
     const std::size_t pairs = (display.cells + 1) / 2;
     const std::size_t block = pairs / (blocks_of_thread * static_cast<std::size_t>(thread_count(options.threads)));
     parallel_blocks(pairs, std::clamp<std::size_t>(block, 8, 32), options.threads,
                     [&](std::size_t begin, std::size_t end) {
                       CellRow row(display, lists, reception, options);
-                      for (std::size_t pair = begin; pair < end; ++pair) row.form(2 * pair, image);
+                      for (std::size_t pair = begin; pair < end; ++pair) row.form(2 * pair, of.beams, cells);
                     });
-    for (std::size_t k = 0; k < of.beams.size(); ++k)
-      cells.row(static_cast<Eigen::Index>(of.beams[k])) = image.row(static_cast<Eigen::Index>(k));
   }
 };
 
