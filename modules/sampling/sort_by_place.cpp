@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "core/parallel.hpp"
+#include "core/positions_by_group.hpp"
 #include "core/radix_sort.hpp"
 #include "core/uninitialized_vector.hpp"
 #include "core/units.hpp"
@@ -16,6 +16,7 @@ namespace {
 constexpr double bins_of_band = 64, most_bands = 1 << 19;  // a gate has at most 2^24 bins
 constexpr int step_bits = 20;                              // of u
 constexpr std::size_t few_keys = 128, keys_ahead = 16;     // that are sorted by comparing; loaded into the cache
+constexpr std::size_t least_at_once = 8192;                // surfels that a thread counts and puts into bands
 
 struct PlaceKey {
   double u;
@@ -49,25 +50,34 @@ void sort_by_u(std::span<PlaceKey> keys) {
 PlacedSurfels sort_by_place(const SceneCloud& scene, const HeadFrame& head, const RangeGate& gate, SurfelOrder order,
                             std::span<const std::uint32_t> surfels, std::span<const std::uint16_t> pieces,
                             int threads) {
-  const std::size_t count = surfels.size();
+  // Numbers for all bands and blocks together are no more than surfels.
+  const std::size_t count = surfels.size(),
+                    at_once = std::max(least_at_once, gate.bins() / static_cast<std::size_t>(bins_of_band));
   UninitializedVector<SurfelBounds> bounds(count);
   UninitializedVector<std::uint32_t> band(count);
-  parallel_blocks(count, 4096, threads, [&](std::size_t begin, std::size_t end) {
+  ItemsOfBlocks in_band((count + at_once - 1) / at_once);
+  parallel_blocks(count, at_once, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::size_t>& bands = in_band[begin / at_once];
     for (std::size_t s = begin; s < end; ++s) {
       const Eigen::Vector3d p = head.position_of(surfels[s]);
       const double r = std::max(p.norm(), 1e-6), reach = 1.001 * std::sqrt(scene.area[surfels[s]] / pi) + 1e-6 * r;
       band[s] = static_cast<std::uint32_t>(
           std::clamp((r - gate.min_range) / (bins_of_band * gate.bin_size), 0.0, most_bands));
       bounds[s] = {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)};
+      if (band[s] >= bands.size()) bands.resize(band[s] + std::size_t{1}, 0);
+      ++bands[band[s]];
     }
   });
   // Each band by itself.
-  std::vector<std::size_t> first(1 + (band.empty() ? 0 : std::size_t{1} + *std::max_element(band.begin(), band.end())));
-  for (const std::uint32_t b : band) ++first[b + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::size_t most = 0;
+  for (const auto& bands : in_band) most = std::max(most, bands.size());
+  for (auto& bands : in_band) bands.resize(most, 0);
+  const std::vector<std::size_t> first = positions_by_group(in_band, most);
   UninitializedVector<PlaceKey> keys(count);
-  std::vector<std::size_t> next = first;
-  for (std::uint32_t s = 0; s < count; ++s) keys[next[band[s]]++] = {bounds[s].u, s};
+  parallel_blocks(count, at_once, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::size_t>& next = in_band[begin / at_once];
+    for (std::size_t s = begin; s < end; ++s) keys[next[band[s]]++] = {bounds[s].u, static_cast<std::uint32_t>(s)};
+  });
   PlacedSurfels sorted{std::vector<std::uint32_t>(count), std::vector<SurfelBounds>(count),
                        std::vector<std::uint16_t>(count)};
   parallel_for(first.size() - 1, threads, [&](std::size_t b) {

@@ -5,14 +5,14 @@
 
 #include "beamforming/display/cell_echoes_internal.hpp"
 #include "beamforming/display/field_points_internal.hpp"
-#include "beamforming/display/positions_by_cell_internal.hpp"
 #include "core/parallel.hpp"
+#include "core/positions_by_group.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr std::size_t echoes_at_once = 4096;
+constexpr std::size_t least_at_once = 8192;
 constexpr std::uint32_t no_slot = std::numeric_limits<std::uint32_t>::max();
 
 /// First and last cell of an echo; the first is beyond the last if it has none.
@@ -69,8 +69,13 @@ class EchoMaker {
  private:
   using Complex = std::complex<double>;
 
+  static CellEcho nothing() {
+    CellEcho echo{};
+    echo.together = 1;
+    return echo;
+  }
   CellEcho of_surface(std::size_t i) const {
-    CellEcho echo;
+    CellEcho echo = nothing();
     const double in_cell = set_place(surface_.echoes, i, echo);
     echo.energy = static_cast<float>(in_cell * surface_.power[i]);
     if (echo.energy > 0) {
@@ -83,10 +88,10 @@ class EchoMaker {
     return echo;
   }
   CellEcho of_target(std::size_t i) const {
-    CellEcho echo;
+    CellEcho echo = nothing();
     const double in_cell = set_place(fixed_, i, echo);
     if (const double size = std::abs(fixed_.amplitude[i]); size > 0)
-      echo.pressure = std::complex<float>(fixed_.amplitude[i] / size);
+      echo.set_pressure(std::complex<float>(fixed_.amplitude[i] / size));
     echo.energy = static_cast<float>(in_cell * std::norm(fixed_.amplitude[i]));
     echo.together = 0;
     set_extent(fixed_.u[i], echo);
@@ -135,12 +140,14 @@ class EchoMaker {
 
 EchoesByCell echoes_by_cell(const DisplayPlan& plan, const SurfaceEchoes& surface, const Echoes& fixed,
                             const Medium& medium, const CellOptions& options) {
-  const std::size_t count = surface.id.size() + fixed.size(), blocks = (count + echoes_at_once - 1) / echoes_at_once;
+  // Numbers for all cells and blocks together are no more than echoes.
+  const std::size_t count = surface.id.size() + fixed.size(), at_once = std::max(least_at_once, plan.cells),
+                    blocks = (count + at_once - 1) / at_once;
   const EchoMaker maker(plan, surface, fixed, medium);
   std::vector<CellSpan> cells(count);
   ItemsOfBlocks echoes(blocks, std::vector<std::size_t>(plan.cells)), pieces = echoes;
-  parallel_blocks(count, echoes_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
-    const std::size_t block = begin / echoes_at_once;
+  parallel_blocks(count, at_once, options.threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t block = begin / at_once;
     for (std::size_t i = begin; i < end; ++i) {
       cells[i] = maker.cells_of(i);
       if (cells[i].first > cells[i].last) continue;
@@ -151,14 +158,14 @@ EchoesByCell echoes_by_cell(const DisplayPlan& plan, const SurfaceEchoes& surfac
   });
   EchoesByCell lists;
   // Echoes stand by their first cells, so that a cell has its own side by side.
-  const std::size_t listed = positions_by_cell(echoes, plan.cells).back();
-  lists.first = positions_by_cell(pieces, plan.cells);
+  const std::size_t listed = positions_by_group(echoes, plan.cells).back();
+  lists.first = positions_by_group(pieces, plan.cells);
   lists.echoes.resize(listed), lists.source.resize(listed), lists.piece.resize(lists.first.back());
   UninitializedVector<std::uint32_t> slot(count);
   const FieldPointMaker point_maker(plan, surface, options);
   std::vector<DrawnPoints> points(blocks);
-  parallel_blocks(count, echoes_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
-    const std::size_t block = begin / echoes_at_once;
+  parallel_blocks(count, at_once, options.threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t block = begin / at_once;
     for (std::size_t i = begin; i < end; ++i) {
       slot[i] = no_slot;
       if (cells[i].first > cells[i].last) continue;
@@ -195,7 +202,7 @@ RowWeights::RowWeights(const SonarHead& head, double wavelength, const std::vect
 
 template <typename RowOf, typename Use>
 void RowWeights::for_each(const RowOf& row_of, const Use& use) const {
-  parallel_blocks(v_.size(), echoes_at_once, threads_, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(v_.size(), least_at_once, threads_, [&](std::size_t begin, std::size_t end) {
     double elevation = std::numeric_limits<double>::quiet_NaN(), v_row = 0;
     std::optional<RowResponse> row;
     for (std::size_t i = begin; i < end; ++i) {

@@ -37,7 +37,7 @@ void CellRow::sum_fields(std::size_t cell, std::size_t s) {
     const float response = row_.response.empty() ? 1 : static_cast<float>(row_.response[point.echo]);
     if (response == 0 || is_one_of(side.strong_numbers, point.echo)) continue;
     const FieldShares::Share& share = plan_.fields.share[point.share];
-    const std::complex<float> pressure = response * point.pressure;
+    const std::complex<float> pressure = response * std::complex<float>(point.re, point.im);
     const float square = response * response * point.power, near = square * share.near, far = square * share.far;
     nodes_[share.first][point.node] += share.near * pressure;
     nodes_[share.first + 1][point.node] += share.far * pressure;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "beamforming/display/display_plan_internal.hpp"
@@ -19,17 +20,22 @@ namespace insonify {
 /// An echo, as the cells of all rows of beams take it, at the peak of their responses: in single precision, so that it
 /// is less than one line of the cache.
 struct CellEcho {
-  float range = 0, half_depth = 0;        ///< [m]
-  float u = 0;                            ///< direction cosine of its middle
-  float half_width = 0;                   ///< in u
-  float slope = 0, across = 0;            ///< change of u with range [1/m], half width at one range (E189)
-  float energy = 0;                       ///< energy of its surface in a cell that holds all of it [Pa^2]
-  float together = 1;                     ///< energy of all echoes of its amplitude, which add as pressures,
-                                          ///< in its own; 0: its amplitude is not random
-  std::complex<float> pressure{};         ///< its phase, times the random amplitude that samples have (E9), if any
-  std::uint32_t port = 0, starboard = 0;  ///< broad nodes of its ends
+  float range, half_depth;        ///< [m]
+  float u;                        ///< direction cosine of its middle
+  float half_width;               ///< in u
+  float slope, across;            ///< change of u with range [1/m], half width at one range (E189)
+  float energy;                   ///< energy of its surface in a cell that holds all of it [Pa^2]
+  float together;                 ///< energy of all echoes of its amplitude, which add as pressures, in its own; 0: its
+                                  ///< amplitude is not random
+  float re, im;                   ///< its phase, times the random amplitude that samples have (E9), if any
+  std::uint32_t port, starboard;  ///< broad nodes of its ends
+
+  std::complex<float> pressure() const { return {re, im}; }
+  void set_pressure(const std::complex<float>& pressure) { re = pressure.real(), im = pressure.imag(); }
 };
 static_assert(sizeof(CellEcho) <= 64);
+// Else an UninitializedVector would set them all.
+static_assert(std::is_trivially_default_constructible_v<CellEcho>);
 
 /// Returns the half length [m] of an echo's surface and of a pulse of half length `pulse` [m] together.
 inline float reach_of(const CellEcho& echo, float pulse) {
@@ -49,12 +55,13 @@ struct EchoInCell {
 
 /// A point of the surface of an echo, as the fields of a cell take it (E183).
 struct FieldPoint {
-  std::complex<float> pressure;  ///< pressure at the middle of the array [Pa]
-  float power;                   ///< expected square of the pressure [Pa^2]
-  std::uint32_t node;            ///< number of its node in a period of u
-  std::uint32_t share;           ///< index in DisplayPlan::fields of its place in the cell
-  std::uint32_t echo;            ///< number of its echo
+  float re, im;         ///< pressure at the middle of the array [Pa]
+  float power;          ///< expected square of the pressure [Pa^2]
+  std::uint32_t node;   ///< number of its node in a period of u
+  std::uint32_t share;  ///< index in DisplayPlan::fields of its place in the cell
+  std::uint32_t echo;   ///< number of its echo
 };
+static_assert(std::is_trivially_default_constructible_v<FieldPoint>);
 /// The points of each cell: those of cell c are point[first[c]] .. point[first[c + 1] - 1].
 struct PointsByCell {
   std::vector<std::size_t> first;

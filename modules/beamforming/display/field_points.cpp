@@ -6,6 +6,7 @@
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/display/field_points_internal.hpp"
 #include "core/parallel.hpp"
+#include "core/positions_by_group.hpp"
 
 namespace insonify {
 namespace {
@@ -108,14 +109,14 @@ PointList FieldPointMaker::draw_single(const std::vector<std::size_t>& single,
   for (std::size_t k = 0; k < size; ++k) {
     const std::size_t i = single[k];
     const Complex amplitude = surface_.echoes.amplitude[i];
-    std::complex<float>& pressure = echoes[slot[i]].pressure;
+    CellEcho& echo = echoes[slot[i]];
     // An entry for what both senses of a path add has no pressure of its own (E190).
     if (id[k] != SurfaceEchoes::of_both)
-      pressure = std::complex<float>(amplitude / std::sqrt(std::norm(amplitude)) * Complex(re[k], im[k]));
+      echo.set_pressure(std::complex<float>(amplitude / std::sqrt(std::norm(amplitude)) * Complex(re[k], im[k])));
     const auto energy = static_cast<float>(energy_of(i));
     const float root = std::sqrt(energy);
     list.echo[k] = slot[i], list.power[k] = energy;
-    points.re[k] = root * pressure.real(), points.im[k] = root * pressure.imag();
+    points.re[k] = root * echo.re, points.im[k] = root * echo.im;
     points.place[k] = static_cast<float>(place_of(i));
     points.node[k] = static_cast<std::int32_t>(plan_.node_of(surface_.echoes.u[i]));
   }
@@ -149,7 +150,8 @@ PointList FieldPointMaker::draw_discs(const DiscList& discs, UninitializedVector
     if (!(root > 0)) continue;
     std::complex<float> sum = 0;
     for (const PointList::Points& points : list.points) sum += std::complex<float>(points.re[k], points.im[k]);
-    echoes[discs.number[k]].pressure += (std::sqrt(discs.part[k]) / root) * sum;
+    CellEcho& echo = echoes[discs.number[k]];
+    echo.set_pressure(echo.pressure() + (std::sqrt(discs.part[k]) / root) * sum);
   }
   return list;
 }
@@ -178,9 +180,9 @@ void FieldPointMaker::put(const PointList& list, std::vector<std::size_t>& at,
     if (!(list.power[k] > 0)) continue;
     for (const PointList::Points& of : list.points) {
       auto node = static_cast<std::size_t>(of.node[k]);
-      const std::complex<float> pressure(of.re[k], of.im[k]);
-      FieldPoint point{plan_.half_positions ? product(plan_.turn[node], pressure) : pressure, list.power[k], 0, 0,
-                       list.echo[k]};
+      std::complex<float> pressure(of.re[k], of.im[k]);
+      if (plan_.half_positions) pressure = product(plan_.turn[node], pressure);
+      FieldPoint point{pressure.real(), pressure.imag(), list.power[k], 0, 0, list.echo[k]};
       while (node >= plan_.period) node -= plan_.period;
       point.node = static_cast<std::uint32_t>(node);
       for_each_cell(of.place[k], [&](std::size_t cell, float within) {
@@ -195,7 +197,7 @@ PointsByCell FieldPointMaker::by_cell(std::vector<DrawnPoints>& blocks) const {
   ItemsOfBlocks at;
   for (DrawnPoints& block : blocks) at.push_back(std::move(block.in_cell));
   PointsByCell all;
-  all.first = positions_by_cell(at, plan_.cells);
+  all.first = positions_by_group(at, plan_.cells);
   all.point.resize(all.first.back());
   parallel_for(blocks.size(), options_.threads, [&](std::size_t b) {
     put(blocks[b].discs, at[b], all.point);

@@ -8,7 +8,6 @@
 
 #include "beamforming/display/cell_row_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
-#include "beamforming/display/positions_by_cell_internal.hpp"
 
 namespace insonify {
 

@@ -70,7 +70,7 @@ void CellRow::add_strong(const Piece& piece, std::vector<double>& mean) {
   const double u = echo.u, away = u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
   const std::size_t count = plan_.lag.size();
   const Complex turn = std::polar(1.0, -step * away);
-  Complex at = static_cast<double>(std::copysign(std::sqrt(piece.energy), piece.response)) * Complex(echo.pressure) *
+  Complex at = static_cast<double>(std::copysign(std::sqrt(piece.energy), piece.response)) * Complex(echo.pressure()) *
                std::polar(1.0, -step * away * element_position(0, count));
   for (std::size_t m = 0; m < count; ++m, at *= turn)
     at_elements_[(plan_.first_element + m) % plan_.period] += std::complex<float>(at);
