@@ -31,13 +31,19 @@ PointList list_of(std::size_t echoes, std::size_t points) {
 
 }  // namespace
 
-/// Discs of some echoes (kernels::Discs), and the numbers of these among those in cells.
-struct FieldPointMaker::DiscList {
-  std::vector<std::uint64_t> id;
-  std::vector<std::uint32_t> number;
-  std::vector<float> part;  // energy of a point, in that of its echo
-  std::vector<double> place, u, re, im, root;
-  std::array<std::vector<double>, 2> cycles, to_edge;
+/// Rings of points of some discs (kernels::Discs), and the numbers of their echoes among those in cells: so few that they
+/// stay in the cache.
+struct FieldPointMaker::Rings {
+  static constexpr std::size_t most = 256;
+  template <typename T>
+  using Each = std::array<T, most>;
+
+  std::size_t count = 0;
+  Each<std::uint64_t> id;
+  Each<std::uint32_t> number;
+  Each<float> part;  // energy of a point, in that of its echo
+  Each<double> place, u, re, im, root;
+  std::array<Each<double>, 2> cycles, to_edge;
 };
 
 FieldPointMaker::FieldPointMaker(const DisplayPlan& plan, const SurfaceEchoes& surface, const CellOptions& options)
@@ -52,16 +58,18 @@ DrawnPoints FieldPointMaker::draw(std::size_t begin, std::size_t end, const Unin
   DrawnPoints drawn;
   drawn.in_cell.assign(plan_.cells, 0);
   if (!options_.speckle) return drawn;
-  DiscList discs;
-  std::vector<std::size_t> single;
+  std::vector<std::size_t> discs, single;
+  std::size_t rings = 0;
   for (std::size_t i = begin; i < end; ++i) {
     if (slot[i] >= echoes.size() || surface_.echoes.amplitude[i] == Complex(0)) continue;
     if (i < surface_.disc.size() && !surface_.disc[i].is_point())
-      list_disc(i, slot[i], discs);
+      discs.push_back(i), rings += surface_.disc[i].two_rings ? 2 : 1;
     else
       single.push_back(i);
   }
-  drawn.discs = draw_discs(discs, echoes), drawn.single = draw_single(single, slot, echoes);
+  drawn.discs = list_of(rings, kernels::points_of_disc);
+  draw_discs(discs, slot, echoes, drawn.discs);
+  drawn.single = draw_single(single, slot, echoes);
   count(drawn.discs, drawn.in_cell), count(drawn.single, drawn.in_cell);
   return drawn;
 }
@@ -75,25 +83,73 @@ double FieldPointMaker::energy_of(std::size_t i) const {
          std::norm(surface_.echoes.amplitude[i]);
 }
 
-void FieldPointMaker::list_disc(std::size_t i, std::uint32_t number, DiscList& discs) const {
+void FieldPointMaker::draw_discs(const std::vector<std::size_t>& discs, const UninitializedVector<std::uint32_t>& slot,
+                                 UninitializedVector<CellEcho>& echoes, PointList& list) const {
+  Rings rings;
+  std::size_t drawn = 0;
+  const auto draw_listed = [&] {
+    draw_rings(rings, drawn, echoes, list);
+    drawn += std::exchange(rings.count, 0);
+  };
+  for (const std::size_t i : discs) {
+    add_rings(i, slot[i], rings);
+    if (rings.count + 2 > Rings::most) draw_listed();
+  }
+  draw_listed();
+}
+
+void FieldPointMaker::add_rings(std::size_t i, std::uint32_t number, Rings& rings) const {
   const Complex amplitude = surface_.echoes.amplitude[i];
   const EchoDisc& disc = surface_.disc[i];
   const double per_size = 1 / std::sqrt(std::norm(amplitude)), place = place_of(i), energy = energy_of(i);
-  const auto add_ring = [&](std::uint64_t id, double radius, double part) {
-    discs.id.push_back(id), discs.number.push_back(number);
-    discs.place.push_back(place), discs.u.push_back(surface_.echoes.u[i]);
-    discs.re.push_back(amplitude.real() * per_size), discs.im.push_back(amplitude.imag() * per_size);
-    discs.root.push_back(std::sqrt(part * energy)), discs.part.push_back(static_cast<float>(part));
+  const auto add = [&](std::uint64_t id, double radius, double part) {
+    const std::size_t k = rings.count++;
+    rings.id[k] = id, rings.number[k] = number;
+    rings.place[k] = place, rings.u[k] = surface_.echoes.u[i];
+    rings.re[k] = amplitude.real() * per_size, rings.im[k] = amplitude.imag() * per_size;
+    rings.root[k] = std::sqrt(part * energy), rings.part[k] = static_cast<float>(part);
     for (const std::size_t axis : {0, 1}) {
-      discs.cycles[axis].push_back(radius * plan_.cycles_per_metre * static_cast<double>(disc.range[axis]));
-      discs.to_edge[axis].push_back(radius * static_cast<double>(disc.u[axis]));
+      rings.cycles[axis][k] = radius * plan_.cycles_per_metre * static_cast<double>(disc.range[axis]);
+      rings.to_edge[axis][k] = radius * static_cast<double>(disc.u[axis]);
     }
   };
   constexpr double of_point = 1.0 / static_cast<double>(kernels::points_of_disc);
-  if (!disc.two_rings) return add_ring(surface_.id[i], 1, of_point);
+  if (!disc.two_rings) return add(surface_.id[i], 1, of_point);
   // Rings divide the disc into two of equal area.
-  add_ring(surface_.id[i], inner_ring, 0.5 * of_point);
-  add_ring(surface_.id[i] + other_ring, outer_ring, 0.5 * of_point);
+  add(surface_.id[i], inner_ring, 0.5 * of_point);
+  add(surface_.id[i] + other_ring, outer_ring, 0.5 * of_point);
+}
+
+void FieldPointMaker::draw_rings(const Rings& rings, std::size_t at, UninitializedVector<CellEcho>& echoes,
+                                 PointList& list) const {
+  kernels::DiscPoints to;
+  for (std::size_t k = 0; k < kernels::points_of_disc; ++k) {
+    PointList::Points& points = list.points[k];
+    to.re[k] = points.re.data() + at, to.im[k] = points.im.data() + at, to.place[k] = points.place.data() + at;
+    to.node[k] = points.node.data() + at;
+  }
+  kernels::draw_discs(options_.seed, rings.id.data(),
+                      {rings.place.data(),
+                       rings.u.data(),
+                       rings.re.data(),
+                       rings.im.data(),
+                       rings.root.data(),
+                       {rings.cycles[0].data(), rings.cycles[1].data()},
+                       {rings.to_edge[0].data(), rings.to_edge[1].data()},
+                       per_cell_length_ / plan_.cycles_per_metre,
+                       plan_.nodes_per_u,
+                       static_cast<double>(plan_.nodes - 1)},
+                      rings.count, to);
+  for (std::size_t k = 0; k < rings.count; ++k) {
+    const auto root = static_cast<float>(rings.root[k]);
+    list.echo[at + k] = rings.number[k], list.power[at + k] = root * root;
+    if (!(root > 0)) continue;
+    std::complex<float> sum = 0;
+    for (std::size_t point = 0; point < kernels::points_of_disc; ++point)
+      sum += std::complex<float>(to.re[point][k], to.im[point][k]);
+    CellEcho& echo = echoes[rings.number[k]];
+    echo.set_pressure(echo.pressure() + (std::sqrt(rings.part[k]) / root) * sum);
+  }
 }
 
 PointList FieldPointMaker::draw_single(const std::vector<std::size_t>& single,
@@ -123,72 +179,53 @@ PointList FieldPointMaker::draw_single(const std::vector<std::size_t>& single,
   return list;
 }
 
-PointList FieldPointMaker::draw_discs(const DiscList& discs, UninitializedVector<CellEcho>& echoes) const {
-  const std::size_t size = discs.id.size();
-  PointList list = list_of(size, kernels::points_of_disc);
-  kernels::DiscPoints to;
-  for (std::size_t k = 0; k < kernels::points_of_disc; ++k) {
-    PointList::Points& points = list.points[k];
-    to.re[k] = points.re.data(), to.im[k] = points.im.data(), to.place[k] = points.place.data();
-    to.node[k] = points.node.data();
-  }
-  kernels::draw_discs(options_.seed, discs.id.data(),
-                      {discs.place.data(),
-                       discs.u.data(),
-                       discs.re.data(),
-                       discs.im.data(),
-                       discs.root.data(),
-                       {discs.cycles[0].data(), discs.cycles[1].data()},
-                       {discs.to_edge[0].data(), discs.to_edge[1].data()},
-                       per_cell_length_ / plan_.cycles_per_metre,
-                       plan_.nodes_per_u,
-                       static_cast<double>(plan_.nodes - 1)},
-                      size, to);
-  for (std::size_t k = 0; k < size; ++k) {
-    const auto root = static_cast<float>(discs.root[k]);
-    list.echo[k] = discs.number[k], list.power[k] = root * root;
-    if (!(root > 0)) continue;
-    std::complex<float> sum = 0;
-    for (const PointList::Points& points : list.points) sum += std::complex<float>(points.re[k], points.im[k]);
-    CellEcho& echo = echoes[discs.number[k]];
-    echo.set_pressure(echo.pressure() + (std::sqrt(discs.part[k]) / root) * sum);
-  }
-  return list;
-}
-
-template <typename Use>
-void FieldPointMaker::for_each_cell(float place, const Use& use) const {
-  if (!(place > -edge_ && place < static_cast<float>(plan_.cells) + edge_)) return;
+FieldPointMaker::InCells FieldPointMaker::cells_of(float place) const {
   const std::int32_t last = static_cast<std::int32_t>(plan_.cells) - 1,
                      cell = std::min(static_cast<std::int32_t>(place), last);  // 0 if the place is before it
   const float within = place - static_cast<float>(cell);
-  if (within < edge_ && cell > 0) use(static_cast<std::size_t>(cell - 1), within + 1);
-  use(static_cast<std::size_t>(cell), within);
-  if (within > 1 - edge_ && cell < last) use(static_cast<std::size_t>(cell + 1), within - 1);
+  const bool before = (within < edge_) & (cell > 0), behind = (within > 1 - edge_) & (cell < last);
+  return {static_cast<std::size_t>(cell), within,
+          static_cast<std::int32_t>(behind) - static_cast<std::int32_t>(before)};
 }
 
+// Both loops do without branches for the cell beside, which no processor could foresee.
+
 void FieldPointMaker::count(const PointList& list, std::vector<std::size_t>& in_cell) const {
-  for (std::size_t k = 0; k < list.echo.size(); ++k)
-    if (list.power[k] > 0)
-      for (const PointList::Points& points : list.points)
-        for_each_cell(points.place[k], [&](std::size_t cell, float) { ++in_cell[cell]; });
+  for (std::size_t k = 0; k < list.echo.size(); ++k) {
+    if (!(list.power[k] > 0)) continue;
+    for (const PointList::Points& points : list.points) {
+      if (!in_gate(points.place[k])) continue;
+      const auto [cell, within, beside] = cells_of(points.place[k]);
+      ++in_cell[cell];
+      in_cell[cell + static_cast<std::size_t>(beside)] += beside != 0 ? 1 : 0;
+    }
+  }
 }
 
 void FieldPointMaker::put(const PointList& list, std::vector<std::size_t>& at,
                           UninitializedVector<FieldPoint>& points) const {
+  FieldPoint nowhere;
   for (std::size_t k = 0; k < list.echo.size(); ++k) {
     if (!(list.power[k] > 0)) continue;
     for (const PointList::Points& of : list.points) {
+      if (!in_gate(of.place[k])) continue;
       auto node = static_cast<std::size_t>(of.node[k]);
       std::complex<float> pressure(of.re[k], of.im[k]);
       if (plan_.half_positions) pressure = product(plan_.turn[node], pressure);
-      FieldPoint point{pressure.real(), pressure.imag(), list.power[k], 0, 0, list.echo[k]};
       while (node >= plan_.period) node -= plan_.period;
-      point.node = static_cast<std::uint32_t>(node);
-      for_each_cell(of.place[k], [&](std::size_t cell, float within) {
-        point.share = plan_.fields.index_at(within);
-        points[at[cell]++] = point;
-      });
+      const auto [cell, within, beside] = cells_of(of.place[k]);
+      FieldPoint point{pressure.real(),
+                       pressure.imag(),
+                       list.power[k],
+                       static_cast<std::uint32_t>(node),
+                       plan_.fields.index_at(within),
+                       list.echo[k]};
+      points[at[cell]++] = point;
+      std::size_t& at_beside = at[cell + static_cast<std::size_t>(beside)];
+      FieldPoint* const copy = beside != 0 ? &points[at_beside] : &nowhere;
+      at_beside += beside != 0 ? 1 : 0;
+      point.share = plan_.fields.index_at(within - static_cast<float>(beside));
+      *copy = point;
     }
   }
 }

@@ -42,19 +42,28 @@ class FieldPointMaker {
   PointsByCell by_cell(std::vector<DrawnPoints>& blocks) const;
 
  private:
-  struct DiscList;
+  struct Rings;
+  /// The cell at a place and the place in it [cells]; -1 or 1: the point also stands in the cell before or behind; else 0.
+  struct InCells {
+    std::size_t cell;
+    float within;
+    std::int32_t beside;
+  };
 
   /// Place of echo i [cells], and its energy in a cell that holds all of it [Pa^2].
   double place_of(std::size_t i) const;
   double energy_of(std::size_t i) const;
-  void list_disc(std::size_t i, std::uint32_t number, DiscList& discs) const;
-  PointList draw_discs(const DiscList& discs, UninitializedVector<CellEcho>& echoes) const;
+  /// Draws echoes that are discs into a list of as many rings of points; sets the pressures of the echoes.
+  void draw_discs(const std::vector<std::size_t>& discs, const UninitializedVector<std::uint32_t>& slot,
+                  UninitializedVector<CellEcho>& echoes, PointList& list) const;
+  void add_rings(std::size_t i, std::uint32_t number, Rings& rings) const;
+  void draw_rings(const Rings& rings, std::size_t at, UninitializedVector<CellEcho>& echoes, PointList& list) const;
   /// Draws echoes that are points.
   PointList draw_single(const std::vector<std::size_t>& single, const UninitializedVector<std::uint32_t>& slot,
                         UninitializedVector<CellEcho>& echoes) const;
-  /// Calls use(cell, place in it) for the cell at a place [cells], and for the one beside it if the place is near the edge.
-  template <typename Use>
-  void for_each_cell(float place, const Use& use) const;
+  /// Returns true if a place [cells] is in a cell, or so near to the first or last that it counts to it.
+  bool in_gate(float place) const { return place > -edge_ && place < static_cast<float>(plan_.cells) + edge_; }
+  InCells cells_of(float place) const;
   void count(const PointList& list, std::vector<std::size_t>& in_cell) const;
   /// Sets the points of a list; at: where the next one of each cell stands.
   void put(const PointList& list, std::vector<std::size_t>& at, UninitializedVector<FieldPoint>& points) const;
