@@ -191,24 +191,21 @@ FieldPointMaker::InCells FieldPointMaker::cells_of(float place) const {
 // Both loops do without branches for the cell beside, which no processor could foresee.
 
 void FieldPointMaker::count(const PointList& list, std::vector<std::size_t>& in_cell) const {
-  for (std::size_t k = 0; k < list.echo.size(); ++k) {
-    if (!(list.power[k] > 0)) continue;
-    for (const PointList::Points& points : list.points) {
-      if (!in_gate(points.place[k])) continue;
+  for (const PointList::Points& points : list.points)
+    for (std::size_t k = 0; k < list.echo.size(); ++k) {
+      if (!(list.power[k] > 0) || !in_gate(points.place[k])) continue;
       const auto [cell, within, beside] = cells_of(points.place[k]);
       ++in_cell[cell];
       in_cell[cell + static_cast<std::size_t>(beside)] += beside != 0 ? 1 : 0;
     }
-  }
 }
 
 void FieldPointMaker::put(const PointList& list, std::vector<std::size_t>& at,
                           UninitializedVector<FieldPoint>& points) const {
   FieldPoint nowhere;
-  for (std::size_t k = 0; k < list.echo.size(); ++k) {
-    if (!(list.power[k] > 0)) continue;
-    for (const PointList::Points& of : list.points) {
-      if (!in_gate(of.place[k])) continue;
+  for (const PointList::Points& of : list.points)
+    for (std::size_t k = 0; k < list.echo.size(); ++k) {
+      if (!(list.power[k] > 0) || !in_gate(of.place[k])) continue;
       auto node = static_cast<std::size_t>(of.node[k]);
       std::complex<float> pressure(of.re[k], of.im[k]);
       if (plan_.half_positions) pressure = product(plan_.turn[node], pressure);
@@ -227,7 +224,6 @@ void FieldPointMaker::put(const PointList& list, std::vector<std::size_t>& at,
       point.share = plan_.fields.index_at(within - static_cast<float>(beside));
       *copy = point;
     }
-  }
 }
 
 PointsByCell FieldPointMaker::by_cell(std::vector<DrawnPoints>& blocks) const {
