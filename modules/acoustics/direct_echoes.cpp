@@ -112,7 +112,7 @@ void random_amplitudes(std::uint64_t seed, std::span<const std::uint64_t> id, do
   for (std::size_t begin = 0; begin < id.size(); begin += block) {
     const std::size_t count = std::min(block, id.size() - begin);
     random_uniform_pairs(seed, RandomStage::surface_amplitude, id.data() + begin, count, u.data(), turn.data());
-    kernels::complex_normal(u.data(), turn.data(), count, re + begin, im + begin);
+    complex_normals(u.data(), turn.data(), count, re + begin, im + begin);
   }
 }
 

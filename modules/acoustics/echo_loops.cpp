@@ -13,18 +13,6 @@ constexpr double cycles_per_radian = 0.159154943091895336, ln2 = 0.6931471805599
 }  // namespace
 
 INSONIFY_CLONES
-void complex_normal(const double* u, const double* turn, std::size_t count, double* re, double* im) {
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < count; ++i) {
-    double sine, cosine;
-    vec::sine_cosine(turn[i], sine, cosine);
-    const double magnitude = std::sqrt(-vec::log(u[i]));  // (E9)
-    re[i] = magnitude * cosine;
-    im[i] = magnitude * sine;
-  }
-}
-
-INSONIFY_CLONES
 void apply_lobe(const double* angle, std::size_t count, double axis, double width, double* gain) {
   const double per_width = 1 / width;
 #pragma GCC ivdep

@@ -6,10 +6,6 @@
 // on each. They do not include Eigen, so wide registers are safe.
 namespace insonify::kernels {
 
-/// Complex normal numbers of mean power 1 (E9; Box-Muller) from numbers uniform in (0, 1): what polar(sqrt(-log(u)), 2
-/// pi turn) gives to 1e-15.
-void complex_normal(const double* u, const double* turn, std::size_t count, double* re, double* im);
-
 /// Multiplies gains by Gaussian lobes 2^(-2 (off / width)^2) of angles off an axis, whole turns apart alike (E14, E57).
 void apply_lobe(const double* angle, std::size_t count, double axis, double width, double* gain);
 

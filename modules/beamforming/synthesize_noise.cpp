@@ -96,11 +96,13 @@ class RowNoise {
     const std::size_t first_layer = column_.size() ? 0 : first;
     const std::size_t layers = column_.size() ? static_cast<std::size_t>(column_.cols()) : last - first;
     ComplexGrid xi(layers, bins);
-    for (std::size_t k = 0; k < layers; ++k)
-      for (std::size_t n = 0; n < bins; ++n)
-        xi(k, n) = random_complex_normal(
-            options_.seed, RandomStage::noise,
-            {static_cast<std::uint64_t>(options_.ping), (first_layer + k) * columns_ + m, begin + n});
+    std::vector<double> re(bins), im(bins);
+    for (std::size_t k = 0; k < layers; ++k) {
+      random_complex_normals(options_.seed, RandomStage::noise,
+                             {static_cast<std::uint64_t>(options_.ping), (first_layer + k) * columns_ + m, begin}, bins,
+                             re.data(), im.data());
+      for (std::size_t n = 0; n < bins; ++n) xi(k, n) = {re[n], im[n]};
+    }
     if (!column_.size()) return xi;
     return column_.middleRows(first, last - first).matrix() * xi.matrix();  // (E56)
   }

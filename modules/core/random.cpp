@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/random.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Random123/philox.h>
@@ -49,6 +50,21 @@ void random_uniform_pairs(std::uint64_t seed, RandomStage stage, const std::uint
 std::complex<double> random_complex_normal(std::uint64_t seed, RandomStage stage, RandomCounter counter) {
   const auto u = random_uniform(seed, stage, counter);
   return std::polar(std::sqrt(-std::log(u[0])), 2 * pi * u[1]);  // (E9)
+}
+
+void random_complex_normals(std::uint64_t seed, RandomStage stage, RandomCounter first, std::size_t count, double* re,
+                            double* im) {
+  const r123::Philox4x64 philox;
+  const r123::Philox4x64::key_type key = key_of(seed, stage);
+  std::array<double, 128> u, turn;
+  for (std::size_t begin = 0; begin < count; begin += u.size()) {
+    const std::size_t some = std::min(u.size(), count - begin);
+    for (std::size_t i = 0; i < some; ++i) {
+      const auto bits = philox({{first.first, first.second, first.third + begin + i, 0}}, key);
+      u[i] = uniform(bits[0]), turn[i] = uniform(bits[1]);
+    }
+    complex_normals(u.data(), turn.data(), some, re + begin, im + begin);
+  }
 }
 
 }  // namespace insonify

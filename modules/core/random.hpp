@@ -48,4 +48,12 @@ void random_uniform_pairs(std::uint64_t seed, RandomStage stage, const std::uint
 /// Returns a circular complex normal number with E|z|^2 = 1: Rayleigh amplitude, uniform phase (E9; Box-Muller).
 std::complex<double> random_complex_normal(std::uint64_t seed, RandomStage stage, RandomCounter counter);
 
+/// Sets re[i] and im[i] to such a number from u[i] and turn[i], which are uniform in (0, 1), i < count: to 1e-15 what
+/// polar(sqrt(-log(u)), 2 pi turn) gives, and the same bits on every machine.
+void complex_normals(const double* u, const double* turn, std::size_t count, double* re, double* im);
+/// Sets re[i] and im[i] to random_complex_normal for counter {first.first, first.second, first.third + i}, i < count,
+/// to 1e-15.
+void random_complex_normals(std::uint64_t seed, RandomStage stage, RandomCounter first, std::size_t count, double* re,
+                            double* im);
+
 }  // namespace insonify

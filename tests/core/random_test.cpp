@@ -57,3 +57,15 @@ TEST(Random, pairs_are_the_first_two_of_each_counter) {
     EXPECT_EQ(v[i], one[1]);
   }
 }
+
+TEST(Random, complex_normals_of_many_counters_are_those_of_one) {
+  constexpr std::size_t count = 300;
+  const RandomCounter first{3, 5, 1000};
+  std::vector<double> re(count), im(count);
+  random_complex_normals(11, RandomStage::noise, first, count, re.data(), im.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto one = random_complex_normal(11, RandomStage::noise, {first.first, first.second, first.third + i});
+    EXPECT_NEAR(re[i], one.real(), 2e-15) << i;
+    EXPECT_NEAR(im[i], one.imag(), 2e-15) << i;
+  }
+}
