@@ -107,6 +107,9 @@ class EchoMaker {
     const auto width = static_cast<double>(echo.half_width);
     echo.port = static_cast<std::uint32_t>(plan_.node_of(u + width) / 2);
     echo.starboard = static_cast<std::uint32_t>(plan_.node_of(u - width) / 2);
+    echo.per_node = 1 / static_cast<float>(echo.port - echo.starboard + 1);
+    const auto pulse = static_cast<float>(plan_.pulse.half_length());
+    echo.reach = std::sqrt(echo.half_depth * echo.half_depth + pulse * pulse);
   }
 
   bool is_both(std::size_t i) const { return i < surface_.id.size() && surface_.id[i] == surface_.of_both; }

@@ -17,15 +17,14 @@ void CellRow::list_energies(std::size_t cell, const Side& side, double unit) {
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   const double per_length = static_cast<double>(plan_.subranges) / plan_.cell_length;
   const auto per_unit = static_cast<float>(1 / unit), length = static_cast<float>(plan_.subranges),
-             ranges_per_metre = static_cast<float>(per_length), pulse = static_cast<float>(plan_.pulse.half_length());
+             ranges_per_metre = static_cast<float>(per_length);
   for (const Piece& piece : side.even) {
     const CellEcho& echo = *piece.echo;
-    const float position = static_cast<float>((echo.range - first) * per_length),
-                reach = reach_of(echo, pulse) * ranges_per_metre;
+    const float position = static_cast<float>((echo.range - first) * per_length), reach = echo.reach * ranges_per_metre;
     const float low = std::max(0.f, position - reach), high = std::min(length, position + reach);
     if (!(high > low)) continue;
     const std::uint32_t port = echo.port, starboard = echo.starboard;
-    const float of_node = piece.energy * per_unit / static_cast<float>(port - starboard + 1);
+    const float of_node = piece.energy * per_unit * echo.per_node;
     if (whole) whole[starboard] += of_node, whole[port + 1] -= of_node;
     const float density = of_node / (high - low);
     if (low == 0 && high == length) {

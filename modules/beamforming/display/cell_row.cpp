@@ -134,21 +134,23 @@ void CellRow::add_surface(const CellEcho& echo, double energy, const CellEdges::
                           double* at) const {
   const double nodes_per_metre = static_cast<double>(std::abs(echo.slope)) * plan_.nodes_per_u;
   if (static_cast<double>(echo.half_depth) * nodes_per_metre < least_tilt)
-    return add_box(echo.u, echo.half_width, energy, at);
+    return add_box(echo.u, half_of_box(static_cast<double>(echo.half_width) * echo.half_width), energy, at);
   // Parts of a tilted surface have directions of their own (E189).
   std::array<CellEdges::Part, CellEdges::most_parts> parts;
   const std::size_t count =
       plan_.edges.parts_between(near, far, echo.range, echo.half_depth, parts_per_node * nodes_per_metre, parts);
-  for (std::size_t k = 0; k < count; ++k) {
-    const double along = echo.slope * parts[k].half, across = echo.across;
-    add_box(echo.u + echo.slope * parts[k].middle, std::sqrt(across * across + along * along), energy * parts[k].share,
-            at);
-  }
+  const double along = echo.slope * parts[0].half, across = echo.across;
+  const double half = half_of_box(across * across + along * along);
+  for (std::size_t k = 0; k < count; ++k)
+    add_box(echo.u + echo.slope * parts[k].middle, half, energy * parts[k].share, at);
 }
 
-void CellRow::add_box(double u, double half_width, double energy, double* at) const {
+double CellRow::half_of_box(double square) const {
   // The kernel takes away the variance of two boxes of a node: that of nodes, and one that is added here.
-  const double half = std::sqrt(std::pow(half_width * plan_.nodes_per_u, 2) + 0.25);
+  return std::sqrt(square * plan_.nodes_per_u * plan_.nodes_per_u + 0.25);
+}
+
+void CellRow::add_box(double u, double half, double energy, double* at) const {
   const double position = std::clamp((u + 1) * plan_.nodes_per_u, 0.0, static_cast<double>(plan_.nodes));
   const double low = std::max(position - half, -0.5) + 1,
                high = std::min(position + half, static_cast<double>(plan_.nodes) + 0.5) + 1;

@@ -24,6 +24,8 @@ struct CellEcho {
   float u;                        ///< direction cosine of its middle
   float half_width;               ///< in u
   float slope, across;            ///< change of u with range [1/m], half width at one range (E189)
+  float reach;                    ///< half length of its surface and of a pulse together [m]
+  float per_node;                 ///< 1 over the number of broad nodes that it is in
   float energy;                   ///< energy of its surface in a cell that holds all of it [Pa^2]
   float together;                 ///< energy of all echoes of its amplitude, which add as pressures, in its own; 0: its
                                   ///< amplitude is not random
@@ -36,11 +38,6 @@ struct CellEcho {
 static_assert(sizeof(CellEcho) <= 64);
 // Else an UninitializedVector would set them all.
 static_assert(std::is_trivially_default_constructible_v<CellEcho>);
-
-/// Returns the half length [m] of an echo's surface and of a pulse of half length `pulse` [m] together.
-inline float reach_of(const CellEcho& echo, float pulse) {
-  return std::sqrt(echo.half_depth * echo.half_depth + pulse * pulse);
-}
 
 /// Returns the length of the overlap of [low, high] with [first, last].
 inline double overlap(double low, double high, double first, double last) {
@@ -140,8 +137,10 @@ class CellRow {
   /// a node.
   void add_surface(const CellEcho& echo, double energy, const CellEdges::Edge& near, const CellEdges::Edge& far,
                    double* at) const;
-  /// Adds energy evenly over u - half_width to u + half_width; `at`: every other number is of a node.
-  void add_box(double u, double half_width, double energy, double* at) const;
+  /// Returns the half length [nodes] of the box of an energy with the square of a half width in u.
+  double half_of_box(double square) const;
+  /// Adds energy evenly over a box about u of a half length [nodes]; `at`: every other number is of a node.
+  void add_box(double u, double half, double energy, double* at) const;
   /// Adds what beams hear of the cells before and behind to spectrum_ (E188).
   void add_cells_beside(std::size_t cell, bool with_water);
   void sum_means(std::size_t cell, bool with_water = true);

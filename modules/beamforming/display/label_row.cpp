@@ -94,8 +94,7 @@ void LabelRow::add(const CellEcho& echo, double energy) {
   const double sine = row_.sines.empty() ? 0 : row_.sines[i];
   if (sine < lobes.lobe_heights.low || sine > lobes.lobe_heights.high) return;
   const double middle = plan_.first_range + (static_cast<double>(cell_) + 0.5) * plan_.cell_length;
-  const bool in_cell = std::abs(echo.range - middle) <=
-                           0.5 * plan_.cell_length + reach_of(echo, static_cast<float>(plan_.pulse.half_length())) &&
+  const bool in_cell = std::abs(echo.range - middle) <= 0.5 * plan_.cell_length + echo.reach &&
                        sine >= lobes.cell_heights.low - echo.half_width &&
                        sine <= lobes.cell_heights.high + echo.half_width;
   Sums& sums = sums_of(row_.echoes.label[i]);
