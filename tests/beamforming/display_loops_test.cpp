@@ -15,6 +15,7 @@
 
 #include "beamforming/display/between_samples_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
+#include "beamforming/display/point_loops_internal.hpp"
 #include "core/units.hpp"
 
 namespace insonify {

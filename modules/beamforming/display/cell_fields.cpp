@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "beamforming/display/cell_row_internal.hpp"
-#include "beamforming/display/looks_loops_internal.hpp"
+#include "beamforming/display/point_loops_internal.hpp"
 
 namespace insonify {
 namespace {

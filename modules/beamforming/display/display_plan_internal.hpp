@@ -34,14 +34,8 @@ struct FieldShares {
   FieldShares() = default;
   /// likeness   correlation of cells side by side
   explicit FieldShares(double likeness);
-  /// Returns the index in `share` of an echo at a place in a cell, 0 .. 1 or at most `edge` outside of it [cells].
-  std::uint32_t index_at(float place) const {
-    const float step = (place + static_cast<float>(edge)) * per_cell + 1;
-    return static_cast<std::uint32_t>(std::clamp(step, 0.f, last));
-  }
   double edge = 0;             ///< half the way from a cell to the next [cells]
   float per_cell = 0;          ///< steps of the table in a cell
-  float last = 0;              ///< its last index
   std::vector<Share> share{};  ///< amplitudes by place, from `edge` before a cell to `edge` behind it
 };
 

@@ -5,6 +5,7 @@
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/display/field_points_internal.hpp"
+#include "beamforming/display/point_loops_internal.hpp"
 #include "core/parallel.hpp"
 #include "core/positions_by_group.hpp"
 
@@ -16,17 +17,44 @@ constexpr double inner_ring = 0.70710678118654752, outer_ring = 1.22474487139158
 
 using Complex = std::complex<double>;
 
-std::complex<float> product(const std::complex<float>& a, const std::complex<float>& b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
 /// Returns a list of so many echoes of which each has so many points; none of its numbers is set.
 PointList list_of(std::size_t echoes, std::size_t points) {
   PointList list;
   list.echo.resize(echoes), list.power.resize(echoes), list.points.resize(points);
   for (PointList::Points& of : list.points)
-    of.re.resize(echoes), of.im.resize(echoes), of.place.resize(echoes), of.node.resize(echoes);
+    of.re.resize(echoes), of.im.resize(echoes), of.node.resize(echoes), of.cell.resize(echoes),
+        of.in_cells.resize(echoes);
   return list;
+}
+
+// The loops below do without branches for the cell beside, which no processor could foresee.
+
+/// Adds the number of points in each cell.
+void count(const PointList& list, std::vector<std::size_t>& in_cell) {
+  for (const PointList::Points& points : list.points)
+    for (std::size_t k = 0; k < list.echo.size(); ++k) {
+      if (!(list.power[k] > 0) || points.cell[k] < 0) continue;
+      const std::int32_t cell = points.cell[k], beside = kernels::InCells::of(points.in_cells[k]).beside;
+      ++in_cell[static_cast<std::size_t>(cell)];
+      in_cell[static_cast<std::size_t>(cell + beside)] += beside != 0 ? 1 : 0;
+    }
+}
+
+/// Sets the points of a list; at: where the next one of each cell stands.
+void put(const PointList& list, std::vector<std::size_t>& at, UninitializedVector<FieldPoint>& points) {
+  FieldPoint nowhere;
+  for (const PointList::Points& of : list.points)
+    for (std::size_t k = 0; k < list.echo.size(); ++k) {
+      if (!(list.power[k] > 0) || of.cell[k] < 0) continue;
+      const auto [share, share_beside, beside] = kernels::InCells::of(of.in_cells[k]);
+      FieldPoint point{of.re[k], of.im[k], list.power[k], static_cast<std::uint32_t>(of.node[k]), share, list.echo[k]};
+      points[at[static_cast<std::size_t>(of.cell[k])]++] = point;
+      std::size_t& at_beside = at[static_cast<std::size_t>(of.cell[k] + beside)];
+      FieldPoint* const copy = beside != 0 ? &points[at_beside] : &nowhere;
+      at_beside += beside != 0 ? 1 : 0;
+      point.share = share_beside;
+      *copy = point;
+    }
 }
 
 }  // namespace
@@ -44,14 +72,11 @@ struct FieldPointMaker::Rings {
   Each<float> part;  // energy of a point, in that of its echo
   Each<double> place, u, re, im, root;
   std::array<Each<double>, 2> cycles, to_edge;
+  std::array<Each<float>, kernels::points_of_disc> place_of_point;  // [cells]
 };
 
 FieldPointMaker::FieldPointMaker(const DisplayPlan& plan, const SurfaceEchoes& surface, const CellOptions& options)
-    : plan_(plan),
-      surface_(surface),
-      options_(options),
-      per_cell_length_(1 / plan.cell_length),
-      edge_(static_cast<float>(plan.fields.edge)) {}
+    : plan_(plan), surface_(surface), options_(options), per_cell_length_(1 / plan.cell_length) {}
 
 DrawnPoints FieldPointMaker::draw(std::size_t begin, std::size_t end, const UninitializedVector<std::uint32_t>& slot,
                                   UninitializedVector<CellEcho>& echoes) const {
@@ -120,13 +145,13 @@ void FieldPointMaker::add_rings(std::size_t i, std::uint32_t number, Rings& ring
   add(surface_.id[i] + other_ring, outer_ring, 0.5 * of_point);
 }
 
-void FieldPointMaker::draw_rings(const Rings& rings, std::size_t at, UninitializedVector<CellEcho>& echoes,
+void FieldPointMaker::draw_rings(Rings& rings, std::size_t at, UninitializedVector<CellEcho>& echoes,
                                  PointList& list) const {
   kernels::DiscPoints to;
   for (std::size_t k = 0; k < kernels::points_of_disc; ++k) {
     PointList::Points& points = list.points[k];
-    to.re[k] = points.re.data() + at, to.im[k] = points.im.data() + at, to.place[k] = points.place.data() + at;
-    to.node[k] = points.node.data() + at;
+    to.re[k] = points.re.data() + at, to.im[k] = points.im.data() + at, to.node[k] = points.node.data() + at;
+    to.place[k] = rings.place_of_point[k].data();
   }
   kernels::draw_discs(options_.seed, rings.id.data(),
                       {rings.place.data(),
@@ -150,6 +175,8 @@ void FieldPointMaker::draw_rings(const Rings& rings, std::size_t at, Uninitializ
     CellEcho& echo = echoes[rings.number[k]];
     echo.set_pressure(echo.pressure() + (std::sqrt(rings.part[k]) / root) * sum);
   }
+  for (std::size_t k = 0; k < kernels::points_of_disc; ++k)
+    place(rings.place_of_point[k].data(), rings.count, at, list.points[k]);
 }
 
 PointList FieldPointMaker::draw_single(const std::vector<std::size_t>& single,
@@ -159,6 +186,7 @@ PointList FieldPointMaker::draw_single(const std::vector<std::size_t>& single,
   std::vector<std::uint64_t> id;
   for (const std::size_t i : single) id.push_back(surface_.id[i]);
   std::vector<double> re(size), im(size);
+  std::vector<float> places(size);
   random_amplitudes(options_.seed, id, re.data(), im.data());  // (E9)
   PointList list = list_of(size, 1);
   PointList::Points& points = list.points.front();
@@ -173,57 +201,25 @@ PointList FieldPointMaker::draw_single(const std::vector<std::size_t>& single,
     const float root = std::sqrt(energy);
     list.echo[k] = slot[i], list.power[k] = energy;
     points.re[k] = root * echo.re, points.im[k] = root * echo.im;
-    points.place[k] = static_cast<float>(place_of(i));
+    places[k] = static_cast<float>(place_of(i));
     points.node[k] = static_cast<std::int32_t>(plan_.node_of(surface_.echoes.u[i]));
   }
+  place(places.data(), size, 0, points);
   return list;
 }
 
-FieldPointMaker::InCells FieldPointMaker::cells_of(float place) const {
-  const std::int32_t last = static_cast<std::int32_t>(plan_.cells) - 1,
-                     cell = std::min(static_cast<std::int32_t>(place), last);  // 0 if the place is before it
-  const float within = place - static_cast<float>(cell);
-  const bool before = (within < edge_) & (cell > 0), behind = (within > 1 - edge_) & (cell < last);
-  return {static_cast<std::size_t>(cell), within,
-          static_cast<std::int32_t>(behind) - static_cast<std::int32_t>(before)};
-}
-
-// Both loops do without branches for the cell beside, which no processor could foresee.
-
-void FieldPointMaker::count(const PointList& list, std::vector<std::size_t>& in_cell) const {
-  for (const PointList::Points& points : list.points)
-    for (std::size_t k = 0; k < list.echo.size(); ++k) {
-      if (!(list.power[k] > 0) || !in_gate(points.place[k])) continue;
-      const auto [cell, within, beside] = cells_of(points.place[k]);
-      ++in_cell[cell];
-      in_cell[cell + static_cast<std::size_t>(beside)] += beside != 0 ? 1 : 0;
-    }
-}
-
-void FieldPointMaker::put(const PointList& list, std::vector<std::size_t>& at,
-                          UninitializedVector<FieldPoint>& points) const {
-  FieldPoint nowhere;
-  for (const PointList::Points& of : list.points)
-    for (std::size_t k = 0; k < list.echo.size(); ++k) {
-      if (!(list.power[k] > 0) || !in_gate(of.place[k])) continue;
-      auto node = static_cast<std::size_t>(of.node[k]);
-      std::complex<float> pressure(of.re[k], of.im[k]);
-      if (plan_.half_positions) pressure = product(plan_.turn[node], pressure);
-      while (node >= plan_.period) node -= plan_.period;
-      const auto [cell, within, beside] = cells_of(of.place[k]);
-      FieldPoint point{pressure.real(),
-                       pressure.imag(),
-                       list.power[k],
-                       static_cast<std::uint32_t>(node),
-                       plan_.fields.index_at(within),
-                       list.echo[k]};
-      points[at[cell]++] = point;
-      std::size_t& at_beside = at[cell + static_cast<std::size_t>(beside)];
-      FieldPoint* const copy = beside != 0 ? &points[at_beside] : &nowhere;
-      at_beside += beside != 0 ? 1 : 0;
-      point.share = plan_.fields.index_at(within - static_cast<float>(beside));
-      *copy = point;
-    }
+void FieldPointMaker::place(const float* place, std::size_t count, std::size_t at, PointList::Points& points) const {
+  const FieldShares& fields = plan_.fields;
+  const kernels::PlaceRule rule{
+      static_cast<std::int32_t>(plan_.cells) - 1,
+      static_cast<float>(fields.edge),
+      fields.per_cell,
+      static_cast<float>(fields.share.size() - 1),
+      static_cast<std::int32_t>(plan_.period),
+      plan_.half_positions ? reinterpret_cast<const float*>(plan_.turn.data()) : nullptr,
+  };
+  kernels::place_points(place, count, rule, points.node.data() + at, points.re.data() + at, points.im.data() + at,
+                        {points.cell.data() + at, points.in_cells.data() + at});
 }
 
 PointsByCell FieldPointMaker::by_cell(std::vector<DrawnPoints>& blocks) const {

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "beamforming/display/cell_row_internal.hpp"
-#include "beamforming/display/looks_loops_internal.hpp"
 
 namespace insonify {
 
 /// Points of the surfaces of some echoes, by echoes that have equally many.
 struct PointList {
-  /// One point of each echo: pressures [Pa], places [cells] and nodes.
+  /// One point of each echo: pressures [Pa], nodes in a period of u, and cells (kernels::PointCells).
   struct Points {
-    UninitializedVector<float> re, im, place;
-    UninitializedVector<std::int32_t> node;
+    UninitializedVector<float> re, im;
+    UninitializedVector<std::int32_t> node, cell;
+    UninitializedVector<std::uint32_t> in_cells;
   };
   UninitializedVector<std::uint32_t> echo;  ///< number of each echo
   UninitializedVector<float> power;         ///< expected square of the pressure of each of its points [Pa^2]
@@ -43,13 +43,6 @@ class FieldPointMaker {
 
  private:
   struct Rings;
-  /// The cell at a place and the place in it [cells]; -1 or 1: the point also stands in the cell before or behind; else 0.
-  struct InCells {
-    std::size_t cell;
-    float within;
-    std::int32_t beside;
-  };
-
   /// Place of echo i [cells], and its energy in a cell that holds all of it [Pa^2].
   double place_of(std::size_t i) const;
   double energy_of(std::size_t i) const;
@@ -57,22 +50,17 @@ class FieldPointMaker {
   void draw_discs(const std::vector<std::size_t>& discs, const UninitializedVector<std::uint32_t>& slot,
                   UninitializedVector<CellEcho>& echoes, PointList& list) const;
   void add_rings(std::size_t i, std::uint32_t number, Rings& rings) const;
-  void draw_rings(const Rings& rings, std::size_t at, UninitializedVector<CellEcho>& echoes, PointList& list) const;
+  void draw_rings(Rings& rings, std::size_t at, UninitializedVector<CellEcho>& echoes, PointList& list) const;
   /// Draws echoes that are points.
   PointList draw_single(const std::vector<std::size_t>& single, const UninitializedVector<std::uint32_t>& slot,
                         UninitializedVector<CellEcho>& echoes) const;
-  /// Returns true if a place [cells] is in a cell, or so near to the first or last that it counts to it.
-  bool in_gate(float place) const { return place > -edge_ && place < static_cast<float>(plan_.cells) + edge_; }
-  InCells cells_of(float place) const;
-  void count(const PointList& list, std::vector<std::size_t>& in_cell) const;
-  /// Sets the points of a list; at: where the next one of each cell stands.
-  void put(const PointList& list, std::vector<std::size_t>& at, UninitializedVector<FieldPoint>& points) const;
+  /// Sets the cells of points from `at` on that are at `place` [cells].
+  void place(const float* place, std::size_t count, std::size_t at, PointList::Points& points) const;
 
   const DisplayPlan& plan_;
   const SurfaceEchoes& surface_;
   const CellOptions& options_;
   double per_cell_length_;
-  float edge_;  ///< half the way from a cell to the next [cells]
 };
 
 }  // namespace insonify

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include "beamforming/display/looks_loops_internal.hpp"
 #include "core/target_clones.hpp"
@@ -11,19 +9,6 @@
 namespace insonify::kernels {
 
 namespace {
-
-constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
-
-/// Returns well mixed bits of a number (the finaliser of SplitMix64; Steele, Lea and Flood 2014).
-INSONIFY_ALWAYS_INLINE std::uint64_t mixed(std::uint64_t bits) {
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
-  return bits ^ (bits >> 31);
-}
-/// Returns the midpoint of one of 2^52 equal intervals between 0 and 1.
-INSONIFY_ALWAYS_INLINE double uniform(std::uint64_t bits) {
-  return (std::bit_cast<double>((bits >> 12) | 0x3ff0000000000000) - 1) + 0x1p-53;
-}
 
 /// Ranges side by side, in registers.
 using Lanes = float __attribute__((vector_size(subrange_lanes * sizeof(float))));
@@ -165,51 +150,6 @@ INSONIFY_CLONES void add_energies(const RangedEnergy* added, std::size_t count, 
       for (std::size_t l = 0; l < subrange_lanes; ++l) more[l] += part[l];
 #pragma GCC unroll 1
       for (std::size_t l = 0; l < subrange_lanes; ++l) less[l] -= part[l];
-    }
-  }
-}
-
-INSONIFY_CLONES void draw_normals(std::uint64_t seed, const std::uint64_t* id, std::size_t count, double* re,
-                                  double* im) {
-  const std::uint64_t stream = mixed(seed + golden);
-#pragma GCC ivdep
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint64_t at = mixed(stream ^ (id[k] * golden));
-    double sine, cosine;
-    vec::sine_cosine(uniform(mixed(at + golden)), sine, cosine);
-    const double magnitude = std::sqrt(-vec::log(uniform(mixed(at + 2 * golden))));
-    re[k] = magnitude * cosine, im[k] = magnitude * sine;  // (E187)
-  }
-}
-
-constexpr double place_of_point = 0.70710678118654752;  // distance from the middle of a disc, in its radius
-
-INSONIFY_CLONES void draw_discs(std::uint64_t seed, const std::uint64_t* id, const Discs& discs, std::size_t count,
-                                const DiscPoints& points) {
-  const std::uint64_t stream = mixed(seed + golden);
-  const Discs of = discs;
-  const DiscPoints to = points;
-#pragma GCC ivdep
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint64_t first = mixed(stream ^ (id[k] * golden));
-    double x, y;
-    vec::sine_cosine(uniform(mixed(first + golden)), y, x);
-    x *= place_of_point, y *= place_of_point;
-    const double cycles[] = {x * of.cycles[0][k] + y * of.cycles[1][k], x * of.cycles[1][k] - y * of.cycles[0][k]};
-    const double in_u[] = {x * of.to_edge[0][k] + y * of.to_edge[1][k], x * of.to_edge[1][k] - y * of.to_edge[0][k]};
-#pragma GCC unroll 4
-    for (std::size_t point = 0; point < points_of_disc; ++point) {
-      const double sign = point % 2 == 0 ? 1 : -1, away = sign * cycles[point / 2];
-      const std::uint64_t at = first + (2 * point + 2) * golden;
-      double sine, cosine;
-      vec::sine_cosine(uniform(mixed(at)) + away, sine, cosine);
-      const double magnitude = of.root[k] * std::sqrt(-vec::log(uniform(mixed(at + golden))));
-      to.re[point][k] = static_cast<float>(magnitude * (of.re[k] * cosine - of.im[k] * sine));
-      to.im[point][k] = static_cast<float>(magnitude * (of.re[k] * sine + of.im[k] * cosine));
-      to.place[point][k] = static_cast<float>(of.place[k] + away * of.cells_per_cycle);
-      const double node = (of.u[k] + sign * in_u[point / 2] + 1) * of.nodes_per_u;
-      const double within = node < 0 ? 0 : node;
-      to.node[point][k] = static_cast<std::int32_t>(within > of.last_node ? of.last_node : within);
     }
   }
 }

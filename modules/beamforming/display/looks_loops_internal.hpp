@@ -55,29 +55,6 @@ void add_energies(const RangedEnergy* added, std::size_t count, std::size_t subr
 /// cell.energy over the nodes.
 void count_looks(const CellEnergies& cell, const std::size_t* at, std::size_t count, double* looks);
 
-/// Sets re and im to complex normal numbers of mean power 1, one for each id: from 64 mixed bits twice, for noise that
-/// needs no counter of its own (E187).
-void draw_normals(std::uint64_t seed, const std::uint64_t* id, std::size_t count, double* re, double* im);
-
-/// Points of a disc whose echoes make up that of the disc: two on each of two axes at right angles.
-constexpr std::size_t points_of_disc = 4;
-/// Echoes of discs: place of the middle [cells], u, phase, root of the energy of a point, and how place, phase [cycles] and u
-/// change from the middle to the edge along two axes of each.
-struct Discs {
-  const double *place, *u, *re, *im, *root;
-  std::array<const double*, 2> cycles, to_edge;
-  double cells_per_cycle, nodes_per_u, last_node;
-};
-/// Points of discs: random pressures, places [cells] and nodes of u.
-struct DiscPoints {
-  std::array<float*, points_of_disc> re, im, place;
-  std::array<std::int32_t*, points_of_disc> node;
-};
-/// Sets the points of discs, `count` in all. They are so far from the middle that they have the variance of the disc, in
-/// directions that follow from seed and id, as their amplitudes do (E228).
-void draw_discs(std::uint64_t seed, const std::uint64_t* id, const Discs& discs, std::size_t count,
-                const DiscPoints& points);
-
 /// Parts of a cell's ranges, each with a field of its own (E183).
 constexpr std::size_t field_parts = 3;
 

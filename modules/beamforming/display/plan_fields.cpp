@@ -32,7 +32,6 @@ FieldShares::FieldShares(double likeness) {
     share.push_back({static_cast<float>(std::sqrt(within * (1 - far))), static_cast<float>(std::sqrt(within * far)),
                      static_cast<std::uint32_t>(first)});
   }
-  last = static_cast<float>(share.size() - 1);
 }
 
 }  // namespace insonify
