@@ -34,7 +34,7 @@ void draw_discs(std::uint64_t seed, const std::uint64_t* id, const Discs& discs,
 struct PlaceRule {
   std::int32_t last_cell;
   float edge;                        ///< half the way from a cell to the next [cells]
-  float steps_per_cell, last_share;  ///< of the table of shares (E183)
+  float steps_per_cell, last_share;  ///< steps and last index of the table of shares (E183)
   std::int32_t period;               ///< [nodes]
   const float* turn;                 ///< factors of pressures by nodes, real and imaginary parts in turn; nullptr: 1
 };
