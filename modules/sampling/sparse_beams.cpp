@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.hpp"
 #include "sampling/list_where_internal.hpp"
 #include "sampling/sparse_beams_internal.hpp"
 
@@ -9,6 +10,7 @@ namespace insonify {
 namespace {
 
 constexpr float enough = 4;  // surfels in a main lobe
+constexpr std::size_t least_block = 2048, most_blocks = 32;
 
 /// Beams of one elevation by direction cosine.
 struct SortedRow {
@@ -42,10 +44,8 @@ std::size_t count_sparse_beams(const GatedSurfels& surfels, const BeamFan& fan, 
     return 0;
 
   // Solid angle of the surfels whose discs reach into each main lobe: of the sparse ones less that of the others.
-  std::vector<double> balance(fan.beams(), 0);
   const std::vector<SortedRow> rows = sorted_rows(fan);
-  for (const GatedSurfel& s : surfels) {
-    if (!counts(s)) continue;
+  const auto add = [&](const GatedSurfel& s, std::vector<double>& balance) {
     const double reach = s.radius / s.range, u = s.position.y() / s.range;
     const double elevation = std::asin(std::clamp(s.position.z() / s.range, -1.0F, 1.0F));
     const double signed_angle = sparse(s) ? solid_angle(s) : -solid_angle(s);
@@ -55,7 +55,19 @@ std::size_t count_sparse_beams(const GatedSurfels& surfels, const BeamFan& fan, 
       auto at = std::lower_bound(row.beams.begin(), row.beams.end(), std::pair<double, std::size_t>(u - half, 0));
       for (; at != row.beams.end() && at->first <= u + half; ++at) balance[at->second] += signed_angle;
     }
-  }
+  };
+  // Sums of blocks, whose number does not depend on the threads.
+  const std::size_t block = std::max(least_block, (surfels.size() + most_blocks - 1) / most_blocks);
+  std::vector<std::vector<double>> sums((surfels.size() + block - 1) / block);
+  parallel_blocks(surfels.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<double>& balance = sums[begin / block];
+    balance.assign(fan.beams(), 0);
+    for (std::size_t i = begin; i < end; ++i)
+      if (counts(surfels[i])) add(surfels[i], balance);
+  });
+  std::vector<double> balance(fan.beams(), 0);
+  for (const auto& of_block : sums)
+    for (std::size_t b = 0; b < balance.size(); ++b) balance[b] += of_block[b];
   return static_cast<std::size_t>(std::count_if(balance.begin(), balance.end(), [](double b) { return b > 0; }));
 }
 

@@ -31,13 +31,15 @@ class Sorter {
 
   Kind kind_of(const Eigen::Vector3d& p) const {
     const double r = p.norm();
-    const bool in_cones = sector_.in_cones(p), in_elevations = sector_.in_elevations(p);
-    if (r < nearest || !all_.holds(p)) return elsewhere;
-    if (in_cones && in_elevations)
+    if (r < nearest) return elsewhere;
+    const bool in_elevations = sector_.in_elevations(p);
+    if (in_elevations && sector_.in_cones(p))
       return r >= gate_.min_range && r <= gate_.max_range ? in_view : r <= farthest_ ? other_range : elsewhere;
-    if (r < gate_.min_range || r > gate_.max_range) return elsewhere;
+    if (r < gate_.min_range || r > gate_.max_range || !all_.holds(p)) return elsewhere;
     return in_elevations ? off_azimuth : off_elevation;
   }
+  /// Returns false if all places within `radius` [m] of a place are elsewhere.
+  bool may_hold(const Eigen::Vector3d& p, double radius) const { return all_.holds(p, radius); }
   RangeGate reach() const { return {nearest, farthest_, gate_.bin_size}; }
   static SamplingOptions widest(const ResolvedPing& ping) {
     SamplingOptions s = ping.view.sampling;
@@ -51,8 +53,8 @@ class Sorter {
  private:
   static Sector widest_sector(const ResolvedPing& ping) { return insonified_sector(ping.head.fan, widest(ping)); }
 
-  SectorBounds sector_, all_;
-  const RangeGate& gate_;  // the sampled one
+  SectorBounds sector_, all_;  // the second holds the first
+  const RangeGate& gate_;      // the sampled one
   double farthest_;
 };
 
@@ -70,7 +72,8 @@ Sampled sampled_surfels(const PreparedScene& prepared, const ResolvedPing& ping,
   const double legs = std::max(levels, reach_of_legs(ping));
   const double farthest = std::max(sorter.reach().max_range, legs);
   const auto reaches = [&](const SurfelBlock& block) {
-    return (shift + block.centre.cast<double>()).norm() <= farthest + block.radius;
+    const Eigen::Vector3d p = shift + block.centre.cast<double>();
+    return p.norm() <= farthest + block.radius && (legs > 0 || sorter.may_hold(to_head * p, block.radius));
   };
   const SurfelMarks marks = prepared.marks_of(reaches, ping.options.threads);
   // Block by block, joined in the order of the scene.
