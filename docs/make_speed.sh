@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Times pings and surveys and prints docs/results/speed.md: cold pings as processes (/usr/bin/time), warm pings inside one process
-# (tests/benchmarks/speed/ping_speed.cpp), and a survey against single calls. Takes seven minutes; give it a quiet machine.
+# (tests/benchmarks/speed/ping_speed.cpp), and a survey against single calls. Takes twelve minutes; give it a quiet machine.
 #   docs/make_speed.sh [build/dev/bin] > docs/results/speed.md
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -83,7 +83,8 @@ cat <<TEXT
 
 ## Real time as display images
 
-\`ping_speed display\`: the same presets as images of 600 cells with noise (\`--display 600 --noise\`), on the harbour.
+\`ping_speed display\`: the same presets as images of 600 cells with noise (\`--display 600 --noise\`), on the harbour. Each preset is timed in five
+rounds, which are minutes apart: the median of their medians.
 
 TEXT
 "$bin/ping_speed" display
