@@ -51,6 +51,8 @@ bool needs_all_patches(const ResolvedPing& ping) {
          !streamed(ping.head, o.synthesis.method);
 }
 
+constexpr std::size_t most_stored = 1 << 20;  // patches of an image that are stored, some 100 bytes each
+
 }  // namespace
 
 VisibleSurfels visible_surfels(const PreparedScene& prepared, ResolvedPing& ping) {
@@ -70,6 +72,8 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
   } else {
     parts.visible = visible_surfels(prepared, ping);
     parts.sampling.report = parts.visible.report;
+    // Samples of an image and its detections both ask for them.
+    parts.stored |= ping.options.outputs.display_bins > 0 && parts.visible.first.back() <= most_stored;
     if (parts.stored) parts.sampling.scatterers = make_chunks(prepared.scene(), view.world_from_head, parts.visible);
   }
   if (parts.stored)

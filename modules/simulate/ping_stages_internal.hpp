@@ -16,8 +16,8 @@ namespace insonify {
 class LayerSum;
 class SynthesizerTable;
 
-/// Patches of surface and their direct echoes. They are stored if a later stage asks for all of them. Otherwise they
-/// are counted, and made where they are used.
+/// Patches of surface and their direct echoes. They are stored if a later stage asks for all of them, and for an image
+/// that has few. Otherwise they are counted, and made where they are used.
 struct PingParts {
   bool stored = false;
   VisibleSurfels visible{};  ///< if sampled by surfels
