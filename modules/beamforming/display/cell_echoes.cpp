@@ -69,6 +69,7 @@ class EchoMaker {
  private:
   using Complex = std::complex<double>;
 
+  /// Returns an echo without energy, that is alone with its amplitude.
   static CellEcho nothing() {
     CellEcho echo{};
     echo.together = 1;
