@@ -16,7 +16,6 @@
 namespace insonify {
 namespace {
 
-constexpr const char* me = "PingSimulator";
 constexpr std::size_t patches_at_once = 4096;
 constexpr double least_cosine = 1e-3;
 constexpr double least_part_of_cell = 0.125;  // area of a patch from which on it is a disc; samples split it
@@ -198,14 +197,15 @@ CellOptions CellSum::options_with(double noise_db) const {
 ComplexGridF CellSum::drawn(const SurfaceEchoes& surface, const Echoes& fixed, double noise_db) const {
   return stored_cells(synthesizers_.cells_of(ping_.head, ping_.sent.medium, ping_.samples.bin_size)
                           ->cells(surface, fixed, options_with(noise_db)),
-                      me);
+                      "PingSimulator");
 }
 
 ComplexGridF CellSum::labelled(const SceneCloud& scene, double noise_db, PixelLabels& labels) const {
   const EchoLabels of_echoes{label_numbers(scene, surfel_), water_begin_, water_begin_ > 0 ? all_.id.size() : 0};
   CellLabels shown;
   const auto synthesizer = synthesizers_.cells_of(ping_.head, ping_.sent.medium, ping_.samples.bin_size);
-  ComplexGridF cells = stored_cells(synthesizer->cells(all_, fixed_, options_with(noise_db), of_echoes, shown), me);
+  ComplexGridF cells =
+      stored_cells(synthesizer->cells(all_, fixed_, options_with(noise_db), of_echoes, shown), "PingSimulator");
   labels = labels_of_cells(scene, shown, surfel_, all_.echoes.v);
   return cells;
 }
