@@ -35,3 +35,23 @@ TEST(MeanLevel, averages_intensity_inside_the_ranges) {
   EXPECT_NEAR(mean_level_db(ping, 1, 4), 154.011 - 10 * std::log10(6), 0.001);
   EXPECT_TRUE(std::isinf(mean_level_db(ping, 50, 60)));
 }
+
+TEST(StoredCells, are_pressures_of_the_same_intensity) {
+  Grid<double> intensity(3, 20000);  // more than one block
+  for (Eigen::Index i = 0; i < intensity.size(); ++i) intensity.data()[i] = 1e-30 * static_cast<double>(i);
+  const ComplexGridF stored = stored_cells(intensity, "me");
+  ASSERT_EQ(stored.rows(), 3);
+  ASSERT_EQ(stored.cols(), 20000);
+  for (Eigen::Index i = 0; i < intensity.size(); ++i) {
+    EXPECT_EQ(stored.data()[i].real(), static_cast<float>(std::sqrt(intensity.data()[i])));
+    EXPECT_EQ(stored.data()[i].imag(), 0);
+  }
+}
+
+TEST(StoredCells, throw_for_what_is_too_loud_or_no_number) {
+  for (const double wrong : {1e80, std::numeric_limits<double>::quiet_NaN()}) {
+    Grid<double> intensity = Grid<double>::Constant(2, 5, 1);
+    intensity(1, 3) = wrong;
+    EXPECT_THROW(stored_cells(intensity, "me"), Error);
+  }
+}
