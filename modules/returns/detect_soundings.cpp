@@ -80,7 +80,7 @@ class Detector {
   /// Sets the intensity in each bin below which a sample is a side lobe of the strongest beam there. (E19)
   void find_strongest() {
     const double margin = power_from_db(-options_.side_lobe_margin_db);
-    parallel_blocks(strongest_.size(), 128, options_.threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(strongest_.size(), 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
       const auto first = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
       Eigen::Map<Eigen::Array<double, 1, Eigen::Dynamic>> most(strongest_.data() + begin, count);
       for (Eigen::Index b = 0; b < ping_.pressure.rows(); ++b)
@@ -105,18 +105,15 @@ class Detector {
   }
   /// Returns true if a sample exceeds the mean of one sample of each cell around, so that these are independent. (E78)
   bool exceeds_background(const Eigen::ArrayXd& row, Eigen::Index n) const {
-    const auto cells_in = [&](Eigen::Index bins) {
-      return std::clamp<Eigen::Index>(bins / cell_ - guard_cells, 0, background_cells);
-    };
-    const double factor = factor_[static_cast<std::size_t>(cells_in(n) + cells_in(row.size() - 1 - n))];
     double sum = 0;
-    for (Eigen::Index k = guard_cells + 1; k <= guard_cells + background_cells; ++k) {
-      for (const Eigen::Index at : {n - k * cell_, n + k * cell_})
-        if (at >= 0 && at < row.size()) sum += row[at];
-      // The sum only grows: most peaks of speckle fall below it early.
-      if (!(row[n] > factor * sum)) return false;
-    }
-    return true;
+    std::size_t count = 0;
+    for (Eigen::Index k = guard_cells + 1; k <= guard_cells + background_cells; ++k)
+      for (const Eigen::Index at : {n - k * cell_, n + k * cell_}) {
+        if (at < 0 || at >= row.size()) continue;
+        sum += row[at];
+        ++count;
+      }
+    return row[n] > factor_[count] * sum;
   }
 
   const Ping& ping_;
