@@ -10,8 +10,8 @@ namespace insonify {
 using ItemsOfBlocks = std::vector<std::vector<std::size_t>>;
 
 /// Turns numbers of items into the positions at which the first of them go in a list by groups: a group's items stand side
-/// by side, in the order of the blocks. So blocks can be sorted on several threads. Returns the position where each group
-/// begins, and behind the last one the number of all items.
+/// by side, in the order of the blocks, and each thread can put the items of a block by itself.
+/// Returns the position where each group begins, and behind the last one the number of all items.
 inline std::vector<std::size_t> positions_by_group(ItemsOfBlocks& items, std::size_t groups) {
   std::vector<std::size_t> next(groups, 0), first{0};
   first.reserve(groups + 1);

@@ -50,7 +50,7 @@ void sort_by_u(std::span<PlaceKey> keys) {
 PlacedSurfels sort_by_place(const SceneCloud& scene, const HeadFrame& head, const RangeGate& gate, SurfelOrder order,
                             std::span<const std::uint32_t> surfels, std::span<const std::uint16_t> pieces,
                             int threads) {
-  // Numbers for all bands and blocks together are no more than surfels.
+  // Blocks are so large that their numbers of all bands are no more than surfels or bands.
   const std::size_t count = surfels.size(),
                     at_once = std::max(least_at_once, gate.bins() / static_cast<std::size_t>(bins_of_band));
   UninitializedVector<SurfelBounds> bounds(count);

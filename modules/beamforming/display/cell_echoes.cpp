@@ -136,48 +136,63 @@ class EchoMaker {
   const SurfaceEchoes& surface_;
   const Echoes& fixed_;
   double metres_per_s_, per_cell_length_;
-  std::vector<double> ranges_;  // of the edges of cells [m]
+  std::vector<double> ranges_;  // ranges of the edges of cells [m]
   std::vector<CellEdges::Edge> edges_;
 };
+
+/// Echoes of a ping, by blocks that threads take.
+struct EchoBlocks {
+  std::size_t at_once;          ///< echoes of a block
+  std::vector<CellSpan> cells;  ///< cells of each echo
+  ItemsOfBlocks echoes,
+      pieces;  ///< numbers of echoes by their first cells, and of echoes with energy by all of their cells
+};
+
+/// Finds the cells of all echoes, and counts what is in each.
+EchoBlocks count_blocks(const EchoMaker& maker, std::size_t count, std::size_t cells, int threads) {
+  // Blocks are so large that their numbers of all cells are no more than echoes or cells.
+  EchoBlocks blocks{std::max(least_at_once, cells), std::vector<CellSpan>(count), {}, {}};
+  blocks.echoes.resize((count + blocks.at_once - 1) / blocks.at_once, std::vector<std::size_t>(cells));
+  blocks.pieces = blocks.echoes;
+  parallel_blocks(count, blocks.at_once, threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t block = begin / blocks.at_once;
+    for (std::size_t i = begin; i < end; ++i) {
+      const CellSpan span = blocks.cells[i] = maker.cells_of(i);
+      if (span.first > span.last) continue;
+      ++blocks.echoes[block][span.first];
+      if (!maker.has_energy(i)) continue;
+      for (std::size_t c = span.first; c <= span.last; ++c) ++blocks.pieces[block][c];
+    }
+  });
+  return blocks;
+}
 
 }  // namespace
 
 EchoesByCell echoes_by_cell(const DisplayPlan& plan, const SurfaceEchoes& surface, const Echoes& fixed,
                             const Medium& medium, const CellOptions& options) {
-  // Numbers for all cells and blocks together are no more than echoes.
-  const std::size_t count = surface.id.size() + fixed.size(), at_once = std::max(least_at_once, plan.cells),
-                    blocks = (count + at_once - 1) / at_once;
+  const std::size_t count = surface.id.size() + fixed.size();
   const EchoMaker maker(plan, surface, fixed, medium);
-  std::vector<CellSpan> cells(count);
-  ItemsOfBlocks echoes(blocks, std::vector<std::size_t>(plan.cells)), pieces = echoes;
-  parallel_blocks(count, at_once, options.threads, [&](std::size_t begin, std::size_t end) {
-    const std::size_t block = begin / at_once;
-    for (std::size_t i = begin; i < end; ++i) {
-      cells[i] = maker.cells_of(i);
-      if (cells[i].first > cells[i].last) continue;
-      ++echoes[block][cells[i].first];
-      if (!maker.has_energy(i)) continue;
-      for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) ++pieces[block][c];
-    }
-  });
+  EchoBlocks blocks = count_blocks(maker, count, plan.cells, options.threads);
   EchoesByCell lists;
   // Echoes stand by their first cells, so that a cell has its own side by side.
-  const std::size_t listed = positions_by_group(echoes, plan.cells).back();
-  lists.first = positions_by_group(pieces, plan.cells);
+  const std::size_t listed = positions_by_group(blocks.echoes, plan.cells).back();
+  lists.first = positions_by_group(blocks.pieces, plan.cells);
   lists.echoes.resize(listed), lists.source.resize(listed), lists.piece.resize(lists.first.back());
   UninitializedVector<std::uint32_t> slot(count);
   const FieldPointMaker point_maker(plan, surface, options);
-  std::vector<DrawnPoints> points(blocks);
-  parallel_blocks(count, at_once, options.threads, [&](std::size_t begin, std::size_t end) {
-    const std::size_t block = begin / at_once;
+  std::vector<DrawnPoints> points(blocks.echoes.size());
+  parallel_blocks(count, blocks.at_once, options.threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t block = begin / blocks.at_once;
     for (std::size_t i = begin; i < end; ++i) {
+      const CellSpan span = blocks.cells[i];
       slot[i] = no_slot;
-      if (cells[i].first > cells[i].last) continue;
-      const auto at = static_cast<std::uint32_t>(echoes[block][cells[i].first]++);
+      if (span.first > span.last) continue;
+      const auto at = static_cast<std::uint32_t>(blocks.echoes[block][span.first]++);
       slot[i] = at, lists.source[at] = static_cast<std::uint32_t>(i), lists.echoes[at] = maker.make(i);
       if (!maker.has_energy(i)) continue;
-      maker.for_each_part(lists.echoes[at], cells[i], [&](std::size_t cell, float energy) {
-        lists.piece[pieces[block][cell]++] = {at, energy};
+      maker.for_each_part(lists.echoes[at], span, [&](std::size_t cell, float energy) {
+        lists.piece[blocks.pieces[block][cell]++] = {at, energy};
       });
     }
     points[block] = point_maker.draw(begin, std::min(end, surface.id.size()), slot, lists.echoes);

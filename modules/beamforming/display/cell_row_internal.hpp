@@ -65,7 +65,7 @@ struct PointsByCell {
   UninitializedVector<FieldPoint> point;
 };
 
-/// The echoes of each cell: those of cell c are part[first[c]] .. part[first[c + 1] - 1].
+/// The echoes of each cell: those of cell c are piece[first[c]] .. piece[first[c + 1] - 1].
 struct EchoesByCell {
   PointsByCell points;
   UninitializedVector<CellEcho> echoes;       ///< those that are in a cell, by their first cells

@@ -164,14 +164,14 @@ void time_presets(const std::string& part) {
 /// A preset on the harbour, and the medians of its rounds.
 struct DisplayedPreset {
   SonarFile file;
-  double near, far;
+  double far, near;
   SonarHead head;
   std::vector<PingTime> rounds{};
 
   explicit DisplayedPreset(const SonarFile& of)
       : file(of),
-        near(std::min(of.spec.min_range, 0.5 * std::min(of.spec.max_range, 30.0))),
         far(std::min(of.spec.max_range, 30.0)),
+        near(std::min(of.spec.min_range, 0.5 * far)),
         head(preset(of.spec.name, near, far)) {}
 };
 
